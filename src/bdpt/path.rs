@@ -1,0 +1,142 @@
+//! A full path x₀…x_k and its density under every strategy: three flat arrays, and everything about weights follows.
+//!
+//! ```text
+//! p_s = Π_{i<s} p_light[i] · Π_{i≥s} p_eye[i]            p_{s+1}/p_s = p_light[s]/p_eye[s]      (Veach 10.9)
+//! ```
+//!
+//! `p_light[i]` is the density of x_i by a light subpath that reaches it through x_{i−1}, `p_eye[i]` by an eye subpath that
+//! reaches it through x_{i+1}; roulette included. Diracs are already removed: every strategy that can make the path has the
+//! same ones.
+
+use super::strategy::{MAX_VERTICES, Strategy};
+use super::vertex::Vertex;
+use super::walk::Context;
+use crate::math::Vec3;
+use crate::scene::TransportMode;
+
+/// The edge that joins the two subpaths.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Edge {
+    /// Unit direction from y_{s−1} to z_{t−1}.
+    pub w: Vec3,
+    /// Geometry term without visibility, m⁻².
+    pub geometry: f32,
+}
+
+/// A joined path, ready for its weights.
+#[derive(Clone, Debug)]
+pub struct FullPath {
+    /// Number of edges.
+    pub k: usize,
+    /// Density of x_i from the light's side, i = 0…k.
+    pub p_light: [f32; MAX_VERTICES],
+    /// Density of x_i from the eye's side, i = 0…k.
+    pub p_eye: [f32; MAX_VERTICES],
+    /// Can strategy s sample this path at all (no Dirac at either end of its connection, and its end points can be hit)?
+    pub samplable: [bool; MAX_VERTICES + 1],
+    /// `samplable`, and the strategy takes part.
+    pub active: [bool; MAX_VERTICES + 1],
+}
+
+impl FullPath {
+    /// A path to be overwritten by [`FullPath::join`].
+    pub fn new() -> Self {
+        Self {
+            k: 0,
+            p_light: [0.0; MAX_VERTICES],
+            p_eye: [0.0; MAX_VERTICES],
+            samplable: [false; MAX_VERTICES + 1],
+            active: [false; MAX_VERTICES + 1],
+        }
+    }
+
+    /// Becomes the path y₀…y_{s−1} z_{t−1}…z₀ of two subpaths cut to s = `y.len()` and t = `z.len()` vertices. `edge` joins
+    /// their ends; it is unused if s = 0.
+    #[inline]
+    pub fn join(&mut self, context: &Context, y: &[Vertex], z: &[Vertex], edge: &Edge) {
+        let (s, t) = (y.len(), z.len());
+        self.k = s + t - 1;
+        let k = self.k;
+        // Away from the connection, both densities are what the walks recorded.
+        for (i, v) in y.iter().enumerate() {
+            self.p_light[i] = v.pdf_fwd_area;
+            self.p_eye[i] = v.pdf_rev_area;
+        }
+        for (j, v) in z.iter().enumerate() {
+            self.p_eye[k - j] = v.pdf_fwd_area;
+            self.p_light[k - j] = v.pdf_rev_area;
+        }
+        // Around it, four densities depend on the connection.
+        if s == 0 {
+            self.join_at_light(context, z);
+        } else {
+            let (a, b) = (&y[s - 1], &z[t - 1]);
+            self.p_light[s] = leave_light_vertex_psa(context, a, s, edge.w) * edge.geometry;
+            self.p_eye[s - 1] = leave_eye_vertex_psa(context, b, t, -edge.w) * edge.geometry;
+            if t >= 2 {
+                self.p_light[s + 1] = scatter_psa(context, b, -edge.w, TransportMode::Importance) * b.geometry_prev;
+            }
+            if s >= 2 {
+                self.p_eye[s - 2] = scatter_psa(context, a, edge.w, TransportMode::Radiance) * a.geometry_prev;
+            }
+        }
+        self.mark_samplable(context, y, z);
+    }
+
+    /// s = 0: x₀ = z_{t−1} lies on a light, which could have chosen it and emitted towards z_{t−2}.
+    #[inline]
+    fn join_at_light(&mut self, context: &Context, z: &[Vertex]) {
+        let x0 = &z[z.len() - 1];
+        let light = &context.scene.lights.list[x0.light as usize];
+        self.p_light[0] = light.pdf_area();
+        self.p_light[1] = light.pdf_direction_psa(x0.n_g, x0.w_prev) * x0.geometry_prev;
+    }
+
+    /// Strategy s joins x_{s−1} to x_s: neither may have scattered by a Dirac. A pinhole cannot be hit (s = k + 1).
+    #[inline]
+    fn mark_samplable(&mut self, context: &Context, y: &[Vertex], z: &[Vertex]) {
+        let (s, t, k) = (y.len(), z.len(), self.k);
+        let strategies = &context.settings.strategies;
+        // The ends of the connection did scatter along it, so they are no Diracs here whatever their walk sampled later.
+        let delta = |i: usize| if i < s { i + 1 < s && y[i].is_delta() } else { let j = k - i; j + 1 < t && z[j].is_delta() };
+        let mut before = false;
+        for i in 0..=k {
+            let here = delta(i);
+            self.samplable[i] = !before && !here;
+            self.active[i] = self.samplable[i] && strategies.contains(Strategy::new(i as u32, (k + 1 - i) as u32));
+            before = here;
+        }
+        self.samplable[k + 1] = false;
+        self.active[k + 1] = false;
+    }
+}
+
+impl Default for FullPath {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// P_σ⊥ with which the light subpath leaves its last vertex along `w`; roulette included.
+#[inline]
+fn leave_light_vertex_psa(context: &Context, y: &Vertex, s: usize, w: Vec3) -> f32 {
+    if s == 1 {
+        return context.scene.lights.list[y.light as usize].pdf_direction_psa(y.n_g, w);
+    }
+    y.survival * context.scene.bsdf(y.n_g, y.n_s, y.material).pdf_psa(y.w_prev, w, TransportMode::Importance)
+}
+
+/// P_σ⊥ with which the eye subpath leaves its last vertex along `w`; roulette included.
+#[inline]
+fn leave_eye_vertex_psa(context: &Context, z: &Vertex, t: usize, w: Vec3) -> f32 {
+    if t == 1 {
+        return context.view.pdf_direction_psa(w);
+    }
+    z.survival * context.scene.bsdf(z.n_g, z.n_s, z.material).pdf_psa(z.w_prev, w, TransportMode::Radiance)
+}
+
+/// P_σ⊥ with which a walk of the other subpath, arriving along `w`, would go on to this vertex's predecessor.
+#[inline]
+fn scatter_psa(context: &Context, v: &Vertex, w: Vec3, mode: TransportMode) -> f32 {
+    v.survival * context.scene.bsdf(v.n_g, v.n_s, v.material).pdf_psa(w, v.w_prev, mode)
+}

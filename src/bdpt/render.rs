@@ -1,0 +1,177 @@
+//! The renderer: for every pixel and pass one light and one eye subpath, and every strategy that joins them.
+//!
+//! ```text
+//! for each pixel of the full film:
+//!     trace y₀y₁…  (always: splats land anywhere)      trace z₀z₁…  (only inside the crop window)
+//!     for each (s,t) that takes part:  film += w_{s,t} C*_{s,t}  on its own pixel, or where it lands if t ≤ 1
+//! ```
+
+use super::connect::{Contribution, Sample};
+use super::settings::Settings;
+use super::strategy::{MAX_VERTICES, Strategy};
+use super::walk::Context;
+use crate::film::{Film, Layers, Rect, Row, Splats};
+use crate::math::Vec3;
+use crate::rng::{BLOCK_SPLAT, SampleId};
+use crate::scene::Scene;
+use rayon::prelude::*;
+
+/// Which strategies run, how long the walks must be, and where each strategy's images are in the film. Layer 0 of either
+/// kind is the image itself.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    strategies: Vec<(Strategy, Slot)>,
+    light_vertices: usize,
+    eye_vertices: usize,
+    /// The film's layers.
+    pub layers: Layers,
+}
+
+/// A strategy's layers, within the kind that its t decides.
+#[derive(Clone, Copy, Debug, Default)]
+struct Slot {
+    weighted: Option<usize>,
+    raw: Option<usize>,
+}
+
+/// What a pass counted.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Counts {
+    /// Closest-hit rays.
+    pub rays_closest: u64,
+    /// Visibility rays.
+    pub rays_shadow: u64,
+    /// Contributions that were no finite number, and were left out.
+    pub non_finite: u64,
+    /// Splats too large to count.
+    pub saturated: u64,
+}
+
+impl Counts {
+    /// Both together.
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            rays_closest: self.rays_closest + other.rays_closest,
+            rays_shadow: self.rays_shadow + other.rays_shadow,
+            non_finite: self.non_finite + other.non_finite,
+            saturated: self.saturated + other.saturated,
+        }
+    }
+}
+
+impl Plan {
+    /// The plan for these settings, with a weighted and/or an unweighted image per strategy.
+    pub fn new(settings: &Settings, scene: &Scene, weighted: bool, raw: bool) -> Self {
+        let mut layers = Layers { pixel: 1, splat: 1 };
+        let mut take = |strategy: Strategy, wanted: bool| {
+            let count = if strategy.stays_in_pixel() { &mut layers.pixel } else { &mut layers.splat };
+            *count += usize::from(wanted);
+            wanted.then(|| *count - 1)
+        };
+        // Without lights no strategy can carry anything.
+        let lit = !scene.lights.list.is_empty();
+        let strategies: Vec<_> = settings
+            .active()
+            .filter(|_| lit)
+            .map(|strategy| (strategy, Slot { weighted: take(strategy, weighted), raw: take(strategy, raw) }))
+            .collect();
+        let walked = |x: &Strategy| x.s >= 2 || x.t == 1 || (x.s == 1 && !settings.fresh_ends);
+        let light_vertices = strategies.iter().map(|(x, _)| x).filter(|x| walked(x)).map(|x| x.s).max().unwrap_or(0) as usize;
+        let eye_vertices = strategies.iter().map(|(x, _)| x.t).max().unwrap_or(0) as usize;
+        Self { strategies, light_vertices, eye_vertices, layers }
+    }
+
+    /// The strategies that run, in index order.
+    pub fn strategies(&self) -> impl Iterator<Item = Strategy> + '_ {
+        self.strategies.iter().map(|(strategy, _)| *strategy)
+    }
+
+    /// Adds a strategy's image to `image`; false if it is not kept.
+    pub fn add_layer(&self, film: &Film, strategy: Strategy, weighted: bool, image: &mut [Vec3]) -> bool {
+        let slot = self.strategies.iter().find(|(x, _)| *x == strategy).map(|(_, slot)| *slot).unwrap_or_default();
+        match if weighted { slot.weighted } else { slot.raw } {
+            None => return false,
+            Some(layer) if strategy.stays_in_pixel() => film.add_pixel_layer(layer, image),
+            Some(layer) => film.add_splat_layer(layer, image),
+        }
+        true
+    }
+
+    /// The image, accumulated on its own.
+    pub fn image(&self, film: &Film) -> Vec<Vec3> {
+        let mut image = film.pixel_layer(0);
+        film.add_splat_layer(0, &mut image);
+        image
+    }
+}
+
+/// Renders pass number `pass` of the rows `first .. first + count`, on all threads.
+pub fn render_rows(context: &Context, plan: &Plan, film: &mut Film, crop: Rect, pass: u32, (first, count): (u32, u32)) -> Counts {
+    let (rows, splats) = film.rows(first, count);
+    rows.into_par_iter()
+        .map_init(Sample::default, |sample, mut row| {
+            let mut target = Target { splats, pass, crop, counts: Counts::default() };
+            target.render_row(context, plan, sample, &mut row);
+            row.count_sample();
+            target.counts.rays_closest = std::mem::take(&mut sample.rays_closest);
+            target.counts.rays_shadow = std::mem::take(&mut sample.rays_shadow);
+            target.counts
+        })
+        .reduce(Counts::default, Counts::plus)
+}
+
+struct Target<'a> {
+    splats: Splats<'a>,
+    pass: u32,
+    crop: Rect,
+    counts: Counts,
+}
+
+impl Target<'_> {
+    fn render_row(&mut self, context: &Context, plan: &Plan, sample: &mut Sample, row: &mut Row) {
+        for x in 0..context.view.size[0] {
+            let id = SampleId { x, y: row.y, sample: self.pass, seed: context.settings.seed };
+            let eye_vertices = if self.crop.contains([x, row.y]) { plan.eye_vertices } else { 0 };
+            sample.trace(context, id, plan.light_vertices, eye_vertices);
+            let (n_light, n_eye) = (sample.light.vertices.len() as u32, sample.eye.vertices.len() as u32);
+            for &(strategy, slot) in &plan.strategies {
+                // Strategies beyond a subpath's end contribute zero.
+                let fresh = strategy.s == 1 && strategy.t >= 2 && context.settings.fresh_ends;
+                if strategy.t > n_eye || (strategy.s > n_light && !fresh) {
+                    continue;
+                }
+                if let Ok(contribution) = sample.evaluate(context, strategy) {
+                    self.add(strategy, slot, &contribution, id, row);
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn add(&mut self, strategy: Strategy, slot: Slot, contribution: &Contribution, id: SampleId, row: &mut Row) {
+        let raw = contribution.contribution_unweighted;
+        let weighted = raw * contribution.mis_weight;
+        if !raw.is_finite() || !weighted.is_finite() {
+            self.counts.non_finite += 1;
+            return;
+        }
+        let values = [(Some(0), weighted), (slot.weighted, weighted), (slot.raw, raw)];
+        if strategy.stays_in_pixel() {
+            for (layer, value) in values {
+                if let Some(layer) = layer {
+                    row.add(id.x, layer, value);
+                }
+            }
+        } else if self.crop.contains(contribution.pixel) {
+            let [u0, u1, u2, _] = id.numbers(BLOCK_SPLAT + strategy.s);
+            for (layer, value) in values {
+                if let Some(layer) = layer {
+                    self.counts.saturated += u64::from(!self.splats.add(contribution.pixel, layer, value, [u0, u1, u2]));
+                }
+            }
+        }
+    }
+}
+
+/// The room that [`SampleId::numbers`] has for blocks must hold the longest walk.
+const _: () = assert!(MAX_VERTICES <= 80);

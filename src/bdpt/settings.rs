@@ -1,0 +1,68 @@
+//! What a user may choose about the estimator. Densities never depend on the crop window.
+
+use super::strategy::{Strategy, StrategySet};
+use serde::{Deserialize, Serialize};
+
+/// How strategies that can make the same path share it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum HeuristicKind {
+    /// w_i = (n_i p_i)^β / Σ_j (n_j p_j)^β (Veach 9.13).
+    Power,
+    /// The power heuristic with β = 1 (Veach 9.8).
+    Balance,
+    /// The densest strategy takes all; ties share (Veach 9.14).
+    Max,
+    /// Strategies below `cutoff` times the densest get nothing, the rest share as in the balance heuristic (Veach 9.12).
+    Cutoff,
+    /// 1/(number of strategies that can make the path).
+    Uniform,
+}
+
+/// A heuristic with its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Heuristic {
+    /// Which one.
+    pub kind: HeuristicKind,
+    /// β of the power heuristic.
+    pub beta: f32,
+    /// Threshold of the cutoff heuristic, in [0, 1].
+    pub cutoff: f32,
+}
+
+impl Default for Heuristic {
+    fn default() -> Self {
+        Self { kind: HeuristicKind::Power, beta: 2.0, cutoff: 0.1 }
+    }
+}
+
+/// The estimator's settings. The defaults are the program's, everywhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// K, the most edges a path may have, jointly over both subpaths; 1 … 64.
+    pub max_edges: u32,
+    /// Seed of the random numbers.
+    pub seed: u32,
+    /// Weights.
+    pub heuristic: Heuristic,
+    /// Russian roulette.
+    pub roulette: bool,
+    /// The strategies that take part: the weights are shared among these alone ("remove" takes one out).
+    pub strategies: StrategySet,
+    /// s = 1 draws a fresh light point and t = 1 a fresh lens point for every connection; off: Veach's literal version,
+    /// which reuses y₀ and z₀.
+    pub fresh_ends: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { max_edges: 6, seed: 0, heuristic: Heuristic::default(), roulette: true, strategies: StrategySet::ALL, fresh_ends: true }
+    }
+}
+
+impl Settings {
+    /// The strategies that exist under a pinhole and take part, in index order.
+    pub fn active(&self) -> impl Iterator<Item = Strategy> + '_ {
+        Strategy::all(self.max_edges).filter(|&strategy| self.strategies.contains(strategy))
+    }
+}

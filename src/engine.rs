@@ -1,0 +1,314 @@
+//! One handle over the renderer: what to render, a session that renders it step by step, and a thread that does so for a
+//! window without ever blocking it.
+
+use crate::bdpt::record::record as record_sample;
+use crate::bdpt::render::{Counts, Plan, render_rows};
+use crate::bdpt::walk::Context;
+use crate::bdpt::{MAX_EDGES, PathRecord, Settings, Strategy, StrategySet};
+use crate::film::Film;
+pub use crate::film::Rect as Crop;
+use crate::math::Vec3;
+use crate::scene::{Scene, View};
+use serde::Serialize;
+use std::fmt;
+use std::sync::Arc;
+use std::time::Duration;
+use web_time::Instant;
+
+mod thread;
+pub use thread::{Engine, Frame, Thumbnail};
+
+/// Most bytes a film may take.
+pub const FILM_BUDGET: u128 = 4 << 30;
+/// Longest side of a film, pixels (a random number's counter packs both coordinates into one word).
+pub const MAX_SIDE: u32 = 32_768;
+
+/// What to render.
+#[derive(Clone, Debug)]
+pub struct Job {
+    /// The scene.
+    pub scene: Arc<Scene>,
+    /// Index into the scene's cameras.
+    pub camera: usize,
+    /// Film size, pixels.
+    pub size: [u32; 2],
+    /// The part of the film that is wanted; `None`: all of it.
+    pub crop: Option<Crop>,
+    /// The estimator's settings.
+    pub settings: Settings,
+    /// Keep one image per strategy, weighted.
+    pub weighted_layers: bool,
+    /// Keep one image per strategy, unweighted.
+    pub raw_layers: bool,
+}
+
+/// Why a job cannot be run: one line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct JobError(pub String);
+
+impl fmt::Display for JobError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for JobError {}
+
+impl Job {
+    /// The job for a scene at the program's defaults: first camera, 512 × 512, K = 6, seed 0.
+    pub fn new(scene: Arc<Scene>) -> Self {
+        Self { scene, camera: 0, size: [512, 512], crop: None, settings: Settings::default(), weighted_layers: false, raw_layers: false }
+    }
+
+    /// The camera with its film.
+    pub fn view(&self) -> View {
+        View::new(&self.scene.cameras[self.camera], self.size[0], self.size[1])
+    }
+
+    /// Can this job be run? The message says what is wrong and what to do.
+    pub fn check(&self) -> Result<(), JobError> {
+        let fail = |text: String| Err(JobError(text));
+        let [width, height] = self.size;
+        if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE {
+            return fail(format!("size {width}x{height}: each side must be 1 to {MAX_SIDE} pixels"));
+        }
+        if self.settings.max_edges == 0 || self.settings.max_edges as usize > MAX_EDGES {
+            return fail(format!("max-edges {}: must be 1 to {MAX_EDGES}", self.settings.max_edges));
+        }
+        if self.camera >= self.scene.cameras.len() {
+            return fail(format!("camera {}: the scene has {}", self.camera, self.scene.cameras.len()));
+        }
+        if let Some(c) = self.crop {
+            let fits = |start: u32, length: u32, side: u32| length > 0 && start < side && length <= side - start;
+            if !fits(c.x, c.width, width) || !fits(c.y, c.height, height) {
+                return fail(format!("crop {},{},{},{}: must be a non-empty part of the {width}x{height} film", c.x, c.y, c.width, c.height));
+            }
+        }
+        let h = &self.settings.heuristic;
+        if !(h.beta.is_finite() && (0.0..=100.0).contains(&h.beta)) {
+            return fail(format!("beta {}: must be 0 to 100", h.beta));
+        }
+        if !(0.0..=1.0).contains(&h.cutoff) {
+            return fail(format!("cutoff {}: must be 0 to 1", h.cutoff));
+        }
+        let bytes = Film::bytes(self.size, self.plan().layers);
+        if bytes > FILM_BUDGET {
+            let (need, have) = (bytes >> 20, FILM_BUDGET >> 20);
+            return fail(format!("a {width}x{height} film with these layers takes {need} MiB, the budget is {have} MiB: choose a smaller size, fewer edges or no pyramid"));
+        }
+        Ok(())
+    }
+
+    fn plan(&self) -> Plan {
+        Plan::new(&self.settings, &self.scene, self.weighted_layers, self.raw_layers)
+    }
+}
+
+/// Re-runs one sample of one pixel: the very path the renderer used. Takes well under a millisecond.
+pub fn record(job: &Job, pixel: [u32; 2], sample: u32) -> Result<PathRecord, JobError> {
+    // Only what the record depends on: a film is not needed.
+    Job { weighted_layers: false, raw_layers: false, ..job.clone() }.check()?;
+    if pixel[0] >= job.size[0] || pixel[1] >= job.size[1] {
+        let [width, height] = job.size;
+        return Err(JobError(format!("pixel {},{}: outside the {width}x{height} film (0,0 is its top left)", pixel[0], pixel[1])));
+    }
+    let view = job.view();
+    Ok(record_sample(&Context { scene: &job.scene, view: &view, settings: &job.settings }, pixel, sample))
+}
+
+/// Counts and times of a session; `--stats` writes it.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Stats {
+    /// "cpu".
+    pub backend: String,
+    /// The processor or graphics adapter that renders.
+    pub adapter: String,
+    /// Film width, pixels.
+    pub width: u32,
+    /// Film height, pixels.
+    pub height: u32,
+    /// Samples per pixel; whole after complete passes.
+    pub spp: f64,
+    /// K.
+    pub max_edges: u32,
+    /// Pairs of a light and an eye subpath.
+    pub pairs: u64,
+    /// Closest-hit rays.
+    pub rays_closest: u64,
+    /// Visibility rays.
+    pub rays_shadow: u64,
+    /// Wall-clock time spent rendering, s.
+    pub seconds: f64,
+    /// Processor time spent rendering, all threads, s.
+    pub cpu_seconds: f64,
+    /// Threads.
+    pub threads: usize,
+    /// Contributions that were no finite number, and were left out.
+    pub non_finite: u64,
+    /// Splats too large to count, cut.
+    pub saturated: u64,
+    /// Largest resident memory of the process so far, bytes (where the system tells; else the film's).
+    pub peak_memory_bytes: u64,
+    /// The scene's features in use.
+    pub features: Vec<String>,
+}
+
+/// A rendering in progress, driven by its caller (the command line, a test, the window's thread).
+#[derive(Debug)]
+pub struct Session {
+    job: Job,
+    view: View,
+    plan: Plan,
+    film: Film,
+    pass: u32,
+    next_row: u32,
+    counts: Counts,
+    rows_done: u64,
+    elapsed: Duration,
+    cpu: Duration,
+    rows_per_second: f64,
+}
+
+impl Session {
+    /// Checks the job and allocates its film.
+    pub fn new(job: Job) -> Result<Self, JobError> {
+        job.check()?;
+        let plan = job.plan();
+        let brightest = job.scene.lights.list.iter().map(|light| light.radiance.max_element()).fold(0.0, f32::max);
+        let film = Film::new(job.size, plan.layers, brightest);
+        let view = job.view();
+        Ok(Self {
+            job,
+            view,
+            plan,
+            film,
+            pass: 0,
+            next_row: 0,
+            counts: Counts::default(),
+            rows_done: 0,
+            elapsed: Duration::ZERO,
+            cpu: Duration::ZERO,
+            rows_per_second: 0.0,
+        })
+    }
+
+    /// Renders for about `budget`: at least a row per thread, at most to the end of the current pass.
+    pub fn step(&mut self, budget: Duration) {
+        let (start, cpu) = (Instant::now(), cpu_time());
+        let height = self.job.size[1];
+        let threads = rayon::current_num_threads() as f64;
+        while self.next_row < height {
+            // As many rows as the rest of the budget pays for at the speed seen so far, evenly over the threads.
+            let left = budget.saturating_sub(start.elapsed()).as_secs_f64();
+            let rows = ((left.min(0.25) * self.rows_per_second / threads).floor().max(1.0) * threads) as u32;
+            let rows = rows.min(height - self.next_row);
+            let began = Instant::now();
+            let context = Context { scene: &self.job.scene, view: &self.view, settings: &self.job.settings };
+            let crop = self.job.crop.unwrap_or(Crop::full(self.job.size));
+            let counts = render_rows(&context, &self.plan, &mut self.film, crop, self.pass, (self.next_row, rows));
+            self.counts = self.counts.plus(counts);
+            self.next_row += rows;
+            self.rows_done += u64::from(rows);
+            self.rows_per_second = f64::from(rows) / began.elapsed().as_secs_f64().max(1e-6);
+            if start.elapsed() >= budget {
+                break;
+            }
+        }
+        if self.next_row == height {
+            self.film.fold();
+            self.pass += 1;
+            self.next_row = 0;
+        }
+        self.elapsed += start.elapsed();
+        self.cpu += cpu_time().saturating_sub(cpu);
+    }
+
+    /// What is rendered.
+    pub fn job(&self) -> &Job {
+        &self.job
+    }
+
+    /// Complete passes, that is samples per pixel everywhere.
+    pub fn passes(&self) -> u32 {
+        self.pass
+    }
+
+    /// How much of the current pass is done, 0…1.
+    pub fn pass_fraction(&self) -> f64 {
+        f64::from(self.next_row) / f64::from(self.job.size[1])
+    }
+
+    /// The image, accumulated on its own: mean radiance per pixel of the full film, row by row from the top; 0 outside the crop.
+    pub fn image(&self) -> Vec<Vec3> {
+        self.plan.image(&self.film)
+    }
+
+    /// One strategy's image; `None` if it is not kept.
+    pub fn layer(&self, strategy: Strategy, weighted: bool) -> Option<Vec<Vec3>> {
+        let mut image = vec![Vec3::ZERO; self.job.size[0] as usize * self.job.size[1] as usize];
+        self.plan.add_layer(&self.film, strategy, weighted, &mut image).then_some(image)
+    }
+
+    /// The sum of the weighted images of all strategies that are not hidden.
+    pub fn image_without(&self, hidden: &StrategySet) -> Vec<Vec3> {
+        let mut image = vec![Vec3::ZERO; self.job.size[0] as usize * self.job.size[1] as usize];
+        for strategy in self.plan.strategies().filter(|x| !hidden.contains(*x)) {
+            self.plan.add_layer(&self.film, strategy, true, &mut image);
+        }
+        image
+    }
+
+    /// The strategies that take part, in index order.
+    pub fn layers(&self) -> Vec<Strategy> {
+        self.plan.strategies().collect()
+    }
+
+    /// Counts and times so far.
+    pub fn stats(&self) -> Stats {
+        let film_bytes = Film::bytes(self.job.size, self.plan.layers) as u64;
+        Stats {
+            backend: "cpu".to_owned(),
+            adapter: cpu_name(),
+            width: self.job.size[0],
+            height: self.job.size[1],
+            spp: self.film.mean_samples(),
+            max_edges: self.job.settings.max_edges,
+            pairs: self.rows_done * u64::from(self.job.size[0]),
+            rays_closest: self.counts.rays_closest,
+            rays_shadow: self.counts.rays_shadow,
+            seconds: self.elapsed.as_secs_f64(),
+            cpu_seconds: self.cpu.as_secs_f64(),
+            threads: rayon::current_num_threads(),
+            non_finite: self.counts.non_finite,
+            saturated: self.counts.saturated,
+            peak_memory_bytes: peak_memory().unwrap_or(film_bytes),
+            features: self.job.scene.features.names().into_iter().map(str::to_owned).collect(),
+        }
+    }
+}
+
+/// Processor time of this process, all threads.
+#[cfg(not(target_arch = "wasm32"))]
+fn cpu_time() -> Duration {
+    cpu_time::ProcessTime::now().as_duration()
+}
+
+/// A page cannot ask for its processor time; it has one thread, so the clock serves.
+#[cfg(target_arch = "wasm32")]
+fn cpu_time() -> Duration {
+    web_time::UNIX_EPOCH.elapsed().unwrap_or_default()
+}
+
+/// Largest resident memory so far, where the system tells.
+fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some(line.trim().trim_end_matches("kB").trim().parse::<u64>().ok()? * 1024)
+}
+
+/// The processor's name, where the system tells.
+fn cpu_name() -> String {
+    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let name = info.lines().find_map(|line| line.strip_prefix("model name")).and_then(|rest| rest.split_once(':'));
+    name.map_or_else(|| std::env::consts::ARCH.to_owned(), |(_, name)| name.trim().to_owned())
+}

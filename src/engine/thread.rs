@@ -1,0 +1,241 @@
+//! A session on a thread of its own, for a window: commands go in, frames come out, and nobody waits.
+
+use super::{Job, JobError, Session, Stats};
+use crate::bdpt::{Strategy, StrategySet};
+use crate::math::Vec3;
+use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::Duration;
+use web_time::Instant;
+
+/// How long the thread renders before it looks for commands.
+const SLICE: Duration = Duration::from_millis(30);
+/// Longest side of a thumbnail, pixels.
+const THUMBNAIL_SIDE: u32 = 96;
+
+/// A small picture of one strategy's weighted layer.
+#[derive(Clone, Debug)]
+pub struct Thumbnail {
+    /// Which strategy.
+    pub strategy: Strategy,
+    /// Its size, pixels.
+    pub size: [u32; 2],
+    /// Mean radiance, row by row from the top.
+    pub pixels: Vec<Vec3>,
+    /// The strategy's share of the image's energy (sum over pixels and channels), 0…1.
+    pub share: f64,
+}
+
+/// What the window shows; made a few times a second.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Which job it belongs to: 0 for the first, one more for every [`Engine::restart`].
+    pub generation: u64,
+    /// Size, pixels.
+    pub size: [u32; 2],
+    /// Sum of the strategies that are not hidden, mean radiance, row by row from the top.
+    pub image: Vec<Vec3>,
+    /// One per strategy that takes part, in index order.
+    pub thumbnails: Vec<Thumbnail>,
+    /// The strategies that were left out of the sum.
+    pub hidden: StrategySet,
+    /// Counts and times.
+    pub stats: Stats,
+    /// Pairs of subpaths per second of rendering.
+    pub pairs_per_second: f64,
+}
+
+enum Command {
+    Restart(Box<Session>, u64),
+    Hide(StrategySet),
+    Pause(bool),
+    Stop,
+}
+
+/// A session on a thread of its own. Dropping it stops the thread.
+pub struct Engine {
+    job: Job,
+    generation: u64,
+    hidden: StrategySet,
+    paused: bool,
+    commands: Sender<Command>,
+    frame: Arc<Mutex<Option<Arc<Frame>>>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Engine {
+    /// Starts rendering. `wake` is called, from the render thread, whenever a new frame is ready.
+    pub fn start(job: Job, wake: impl Fn() + Send + Sync + 'static) -> Result<Self, JobError> {
+        let job = Job { weighted_layers: true, ..job };
+        let session = Session::new(job.clone())?;
+        let (commands, inbox) = channel();
+        let frame = Arc::new(Mutex::new(None));
+        let worker = Worker { session, generation: 0, hidden: StrategySet::NONE, paused: false, frame: Arc::clone(&frame), wake: Box::new(wake) };
+        let thread = std::thread::Builder::new()
+            .name("render".to_owned())
+            .spawn(move || worker.run(&inbox))
+            .map_err(|error| JobError(format!("cannot start the render thread: {error}")))?;
+        Ok(Self { job, generation: 0, hidden: StrategySet::NONE, paused: false, commands, frame, thread: Some(thread) })
+    }
+
+    /// Renders something else from now on. On an error the old job goes on.
+    pub fn restart(&mut self, job: Job) -> Result<(), JobError> {
+        let job = Job { weighted_layers: true, ..job };
+        let session = Session::new(job.clone())?;
+        self.job = job;
+        self.generation += 1;
+        self.send(Command::Restart(Box::new(session), self.generation));
+        Ok(())
+    }
+
+    /// Leaves strategies out of the sum; their weights stay as they are.
+    pub fn set_hidden(&mut self, hidden: StrategySet) {
+        self.hidden = hidden;
+        self.send(Command::Hide(hidden));
+    }
+
+    /// The strategies left out of the sum.
+    pub fn hidden(&self) -> StrategySet {
+        self.hidden
+    }
+
+    /// Stops or goes on.
+    pub fn set_paused(&mut self, paused: bool) {
+        self.paused = paused;
+        self.send(Command::Pause(paused));
+    }
+
+    /// Is it stopped?
+    pub fn paused(&self) -> bool {
+        self.paused
+    }
+
+    /// The newest frame, if the current job has one yet.
+    pub fn frame(&self) -> Option<Arc<Frame>> {
+        let frame = self.frame.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        frame.filter(|frame| frame.generation == self.generation)
+    }
+
+    /// Number of the current job.
+    pub fn generation(&self) -> u64 {
+        self.generation
+    }
+
+    /// The current job.
+    pub fn job(&self) -> &Job {
+        &self.job
+    }
+
+    fn send(&self, command: Command) {
+        // The thread lives as long as this handle; were it gone, there would be nothing left to tell it.
+        drop(self.commands.send(command));
+    }
+}
+
+impl Drop for Engine {
+    fn drop(&mut self) {
+        self.send(Command::Stop);
+        if let Some(thread) = self.thread.take() {
+            drop(thread.join());
+        }
+    }
+}
+
+struct Worker {
+    session: Session,
+    generation: u64,
+    hidden: StrategySet,
+    paused: bool,
+    frame: Arc<Mutex<Option<Arc<Frame>>>>,
+    wake: Box<dyn Fn() + Send + Sync>,
+}
+
+impl Worker {
+    fn run(mut self, inbox: &Receiver<Command>) {
+        let mut next_frame = Instant::now();
+        loop {
+            // All commands that have come; a paused thread sleeps until one does.
+            let mut changed = false;
+            loop {
+                let command = if self.paused && !changed { inbox.recv().map_err(|_| TryRecvError::Disconnected) } else { inbox.try_recv() };
+                match command {
+                    Ok(Command::Stop) | Err(TryRecvError::Disconnected) => return,
+                    Ok(command) => changed |= self.obey(command),
+                    Err(TryRecvError::Empty) => break,
+                }
+            }
+            if !self.paused {
+                self.session.step(SLICE);
+            }
+            if changed || Instant::now() >= next_frame {
+                let began = Instant::now();
+                self.publish();
+                // A frame costs time too: at most a fifth of it, at least four frames a second.
+                next_frame = Instant::now() + (began.elapsed() * 4).clamp(Duration::from_millis(50), Duration::from_millis(250));
+            }
+        }
+    }
+
+    /// True if the frame changes by it.
+    fn obey(&mut self, command: Command) -> bool {
+        match command {
+            Command::Restart(session, generation) => {
+                self.session = *session;
+                self.generation = generation;
+                // The first look at something new should not be empty.
+                self.session.step(SLICE);
+            }
+            Command::Hide(hidden) => self.hidden = hidden,
+            Command::Pause(paused) => self.paused = paused,
+            Command::Stop => return false,
+        }
+        true
+    }
+
+    fn publish(&self) {
+        let frame = Arc::new(make_frame(&self.session, self.generation, self.hidden));
+        *self.frame.lock().unwrap_or_else(PoisonError::into_inner) = Some(frame);
+        (self.wake)();
+    }
+}
+
+/// One look at a session: every layer is read once, for the sum and for its thumbnail.
+fn make_frame(session: &Session, generation: u64, hidden: StrategySet) -> Frame {
+    let size = session.job().size;
+    let mut image = vec![Vec3::ZERO; size[0] as usize * size[1] as usize];
+    let mut thumbnails = Vec::new();
+    for strategy in session.layers() {
+        let Some(layer) = session.layer(strategy, true) else { continue };
+        if !hidden.contains(strategy) {
+            for (sum, value) in image.iter_mut().zip(&layer) {
+                *sum += *value;
+            }
+        }
+        let energy: f64 = layer.iter().map(|c| f64::from(c.element_sum())).sum();
+        let (size, pixels) = shrink(size, &layer);
+        thumbnails.push(Thumbnail { strategy, size, pixels, share: energy });
+    }
+    let total: f64 = thumbnails.iter().map(|t| t.share).sum();
+    if total > 0.0 {
+        thumbnails.iter_mut().for_each(|t| t.share /= total);
+    }
+    let stats = session.stats();
+    let pairs_per_second = if stats.seconds > 0.0 { stats.pairs as f64 / stats.seconds } else { 0.0 };
+    Frame { generation, size, image, thumbnails, hidden, stats, pairs_per_second }
+}
+
+/// Box-filters an image to at most [`THUMBNAIL_SIDE`] pixels a side.
+fn shrink([width, height]: [u32; 2], image: &[Vec3]) -> ([u32; 2], Vec<Vec3>) {
+    let factor = width.max(height).div_ceil(THUMBNAIL_SIDE).max(1);
+    let small = [width.div_ceil(factor), height.div_ceil(factor)];
+    let mut sums = vec![(Vec3::ZERO, 0.0f32); (small[0] * small[1]) as usize];
+    for (y, row) in image.chunks(width as usize).enumerate() {
+        let line = (y as u32 / factor * small[0]) as usize;
+        for (x, pixel) in row.iter().enumerate() {
+            let cell = &mut sums[line + x / factor as usize];
+            *cell = (cell.0 + *pixel, cell.1 + 1.0);
+        }
+    }
+    (small, sums.into_iter().map(|(sum, count)| sum / count).collect())
+}

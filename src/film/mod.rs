@@ -1,0 +1,260 @@
+//! A layered image that is only ever added to. A layer is a number here; what it means is the renderer's business.
+//!
+//! There are two kinds of layers. *Pixel layers* take contributions that stay in their own pixel: f32 values go straight into
+//! f64 sums. *Splat layers* take contributions that may land anywhere, from any thread: they are added as integers (multiples
+//! of a quantum, rounded stochastically so that the mean is exact), because integer addition does not care about order; after
+//! each pass they are folded into f64 sums. So an image depends on its seed and never on the number of threads. Sums are
+//! divided by their counts only when someone looks.
+
+use crate::math::Vec3;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Largest share of a 64-bit counter that one splat may take; a larger one is cut and counted as saturated.
+const MAX_QUANTA: f32 = (1u64 << 48) as f32;
+
+/// A rectangle of pixels, from the top left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rect {
+    /// First column.
+    pub x: u32,
+    /// First row.
+    pub y: u32,
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+impl Rect {
+    /// The whole of an image.
+    pub fn full([width, height]: [u32; 2]) -> Self {
+        Self { x: 0, y: 0, width, height }
+    }
+
+    /// Does the pixel lie inside?
+    #[inline]
+    pub fn contains(&self, [x, y]: [u32; 2]) -> bool {
+        x >= self.x && y >= self.y && x - self.x < self.width && y - self.y < self.height
+    }
+}
+
+/// How many layers of each kind a film has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layers {
+    /// Layers whose contributions stay in their pixel.
+    pub pixel: usize,
+    /// Layers whose contributions land anywhere.
+    pub splat: usize,
+}
+
+/// The sums.
+#[derive(Debug)]
+pub struct Film {
+    /// Size, pixels.
+    pub size: [u32; 2],
+    layers: Layers,
+    /// [pixel][layer][channel]
+    sums: Vec<f64>,
+    /// [pixel][layer][channel], this pass, in quanta.
+    splats: Vec<AtomicU64>,
+    /// [pixel][layer][channel], passes before, radiance.
+    folded: Vec<f64>,
+    quantum: f32,
+    /// Samples of each row's pixels so far.
+    row_samples: Vec<u32>,
+}
+
+/// One row, open for adding.
+pub struct Row<'a> {
+    /// Its number, from the top.
+    pub y: u32,
+    sums: &'a mut [f64],
+    samples: &'a mut u32,
+    layers: Layers,
+}
+
+/// The splat layers, open for adding from any thread.
+#[derive(Clone, Copy)]
+pub struct Splats<'a> {
+    size: [u32; 2],
+    layers: usize,
+    cells: &'a [AtomicU64],
+    quantum: f32,
+}
+
+impl Film {
+    /// Bytes that a film of this size takes.
+    pub fn bytes(size: [u32; 2], layers: Layers) -> u128 {
+        u128::from(size[0]) * u128::from(size[1]) * 3 * (8 * layers.pixel as u128 + 16 * layers.splat as u128)
+    }
+
+    /// An empty film; `scale` is a radiance that the scene's brightest splats are typically of (the brightest emitter's),
+    /// from which the quantum follows: 2⁻³⁶ of it, with room for 2²⁸ times it in one pixel and pass.
+    pub fn new(size: [u32; 2], layers: Layers, scale: f32) -> Self {
+        let pixels = size[0] as usize * size[1] as usize;
+        let scale = if scale.is_finite() && scale > 1e-25 { scale } else { 1.0 };
+        Self {
+            size,
+            layers,
+            sums: vec![0.0; pixels * layers.pixel * 3],
+            splats: std::iter::repeat_with(AtomicU64::default).take(pixels * layers.splat * 3).collect(),
+            folded: vec![0.0; pixels * layers.splat * 3],
+            quantum: scale * (-36.0f32).exp2(),
+            row_samples: vec![0; size[1] as usize],
+        }
+    }
+
+    /// The rows `first .. first + count`, each open for adding on its own thread, and the splats for all of them.
+    pub fn rows(&mut self, first: u32, count: u32) -> (Vec<Row<'_>>, Splats<'_>) {
+        let stride = self.size[0] as usize * self.layers.pixel * 3;
+        let (first, end) = (first as usize, (first + count) as usize);
+        let splats = Splats { size: self.size, layers: self.layers.splat, cells: &self.splats, quantum: self.quantum };
+        let sums = self.sums[first * stride..end * stride].chunks_mut(stride.max(1));
+        let samples = self.row_samples[first..end].iter_mut();
+        let layers = self.layers;
+        let rows = sums.zip(samples).zip(first as u32..).map(|((sums, samples), y)| Row { y, sums, samples, layers }).collect();
+        (rows, splats)
+    }
+
+    /// Ends a pass: this pass's splats join those of the passes before.
+    pub fn fold(&mut self) {
+        let quantum = f64::from(self.quantum);
+        for (sum, cell) in self.folded.iter_mut().zip(&mut self.splats) {
+            let quanta = std::mem::take(cell.get_mut());
+            if quanta > 0 {
+                *sum += quanta as f64 * quantum;
+            }
+        }
+    }
+
+    /// Mean of a pixel layer, per pixel from the top left; black where there is no sample yet.
+    pub fn pixel_layer(&self, layer: usize) -> Vec<Vec3> {
+        let mut image = vec![Vec3::ZERO; self.size[0] as usize * self.size[1] as usize];
+        self.add_pixel_layer(layer, &mut image);
+        image
+    }
+
+    /// Mean of a splat layer, per pixel from the top left.
+    pub fn splat_layer(&self, layer: usize) -> Vec<Vec3> {
+        let mut image = vec![Vec3::ZERO; self.size[0] as usize * self.size[1] as usize];
+        self.add_splat_layer(layer, &mut image);
+        image
+    }
+
+    /// Adds the mean of a pixel layer to an image.
+    pub fn add_pixel_layer(&self, layer: usize, image: &mut [Vec3]) {
+        let (width, stride) = (self.size[0] as usize, self.layers.pixel * 3);
+        for (y, (row, &samples)) in image.chunks_mut(width).zip(&self.row_samples).enumerate() {
+            let scale = 1.0 / f64::from(samples.max(1));
+            for (x, pixel) in row.iter_mut().enumerate() {
+                let at = (y * width + x) * stride + layer * 3;
+                *pixel += vec3(&self.sums[at..at + 3], scale);
+            }
+        }
+    }
+
+    /// Adds the mean of a splat layer to an image: what landed, over the passes' worth of light subpaths that were traced.
+    pub fn add_splat_layer(&self, layer: usize, image: &mut [Vec3]) {
+        let passes = self.mean_samples();
+        if passes == 0.0 {
+            return;
+        }
+        let stride = self.layers.splat * 3;
+        for (i, pixel) in image.iter_mut().enumerate() {
+            let at = i * stride + layer * 3;
+            let sum = |c: usize| self.folded[at + c] + self.splats[at + c].load(Ordering::Relaxed) as f64 * f64::from(self.quantum);
+            *pixel += vec3(&[sum(0), sum(1), sum(2)], 1.0 / passes);
+        }
+    }
+
+    /// Samples per pixel, averaged over the rows: whole after every complete pass.
+    pub fn mean_samples(&self) -> f64 {
+        self.row_samples.iter().map(|&n| f64::from(n)).sum::<f64>() / self.row_samples.len().max(1) as f64
+    }
+}
+
+fn vec3(sum: &[f64], scale: f64) -> Vec3 {
+    Vec3::new((sum[0] * scale) as f32, (sum[1] * scale) as f32, (sum[2] * scale) as f32)
+}
+
+impl Row<'_> {
+    /// Adds to a pixel of the row.
+    #[inline]
+    pub fn add(&mut self, x: u32, layer: usize, value: Vec3) {
+        let at = (x as usize * self.layers.pixel + layer) * 3;
+        for (sum, value) in self.sums[at..at + 3].iter_mut().zip(value.to_array()) {
+            *sum += f64::from(value);
+        }
+    }
+
+    /// Every pixel of the row has one more sample.
+    pub fn count_sample(&mut self) {
+        *self.samples += 1;
+    }
+}
+
+impl Splats<'_> {
+    /// Adds to a pixel of a splat layer; `u` rounds each channel stochastically. False if the value was too large to count.
+    #[inline]
+    pub fn add(&self, [x, y]: [u32; 2], layer: usize, value: Vec3, u: [f32; 3]) -> bool {
+        let at = ((y as usize * self.size[0] as usize + x as usize) * self.layers + layer) * 3;
+        let mut fits = true;
+        for (c, value) in value.to_array().into_iter().enumerate() {
+            let quanta = value / self.quantum;
+            fits &= quanta < MAX_QUANTA;
+            // Above 2²⁴ an f32 has no fraction left to round.
+            let quanta = quanta.min(MAX_QUANTA);
+            let whole = quanta.floor();
+            let rounded = whole as u64 + u64::from(u[c] < quanta - whole);
+            if rounded > 0 {
+                self.cells[at + c].fetch_add(rounded, Ordering::Relaxed);
+            }
+        }
+        fits
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn splats_keep_the_mean_and_do_not_care_about_order() {
+        let film = || Film::new([2, 1], Layers { pixel: 0, splat: 1 }, 1.0);
+        let values: Vec<f32> = (0..10_000).map(|i| ((i * 7919) % 10_007) as f32 * 1e-7).collect();
+        let mean = |order: &mut dyn Iterator<Item = &f32>| {
+            let mut film = film();
+            let (mut rows, splats) = film.rows(0, 1);
+            for (i, &v) in order.enumerate() {
+                assert!(splats.add([1, 0], 0, Vec3::splat(v), [(i as f32 * 0.618).fract(); 3]));
+            }
+            rows[0].count_sample();
+            film.fold();
+            film.splat_layer(0)[1].x
+        };
+        let exact: f64 = values.iter().map(|&v| f64::from(v)).sum();
+        let (forth, back) = (mean(&mut values.iter()), mean(&mut values.iter().rev()));
+        assert!((f64::from(forth) - exact).abs() < 1e-6 * exact && (f64::from(back) - exact).abs() < 1e-6 * exact);
+    }
+
+    #[test]
+    fn a_splat_too_large_to_count_says_so() {
+        let mut film = Film::new([1, 1], Layers { pixel: 0, splat: 1 }, 1.0);
+        let (_, splats) = film.rows(0, 1);
+        assert!(splats.add([0, 0], 0, Vec3::splat(1000.0), [0.5; 3]));
+        assert!(!splats.add([0, 0], 0, Vec3::splat(1e9), [0.5; 3]));
+    }
+
+    #[test]
+    fn ten_million_samples_keep_their_mean() {
+        // An f32 sum of these is 10 % low (0.2699); an f32 running mean drifts.
+        let mut film = Film::new([1, 1], Layers { pixel: 1, splat: 0 }, 1.0);
+        let (mut rows, _) = film.rows(0, 1);
+        for _ in 0..10_000_000 {
+            rows[0].add(0, 0, Vec3::splat(0.3));
+            rows[0].count_sample();
+        }
+        drop(rows);
+        assert!((film.pixel_layer(0)[0].x - 0.3).abs() < 1e-7);
+    }
+}

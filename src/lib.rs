@@ -1,0 +1,21 @@
+//! See bidirectional path tracing: the library behind the `bdpt-explorer` program.
+//!
+//! A module names only modules on lower floors (`tests/tidy.rs` reads this picture and enforces it):
+//!
+//! ```text
+//! 7  main
+//! 6  ui cli
+//! 5  report
+//! 4  engine
+//! 2  bdpt
+//! 1  scene film
+//! 0  math rng layout
+//! ```
+
+pub mod bdpt;
+pub mod engine;
+pub mod film;
+pub mod layout;
+pub mod math;
+pub mod rng;
+pub mod scene;

@@ -1,0 +1,77 @@
+//! What a file leaves out: a camera that frames the scene, a lamp that lights it. Each default is said in the notes.
+
+use super::Material;
+use super::assemble::{Bounds, PartCamera, PartTriangle, Parts};
+use crate::math::{DVec3, Vec3};
+
+/// Vertical field of view of the framed camera, radians.
+const YFOV: f64 = 40.0 * std::f64::consts::PI / 180.0;
+
+/// Irradiance of the default light at the point it faces, W m⁻². Mid-grey surfaces that face it half-way then show a
+/// radiance near 0.5 W m⁻² sr⁻¹: 0.5/π · 6 · cos 60° ≈ 0.5.
+const IRRADIANCE: f64 = 6.0;
+
+impl Parts {
+    /// Adds a camera that frames everything if there is none.
+    #[must_use]
+    pub fn with_default_camera(mut self) -> Self {
+        if let (true, Some(bounds)) = (self.cameras.is_empty(), self.bounds()) {
+            self.cameras.push(framed_camera(&bounds));
+            self.notes.push("No usable camera in the file: one that frames the whole scene was added.".into());
+        }
+        self
+    }
+
+    /// Adds a large lamp above and behind the first camera if nothing emits.
+    #[must_use]
+    pub fn with_default_light(mut self) -> Self {
+        let lit = self.triangles.iter().any(|t| self.materials.get(t.material as usize).is_some_and(|(_, m)| m.emits()) && area(t) > 0.0);
+        let (false, Some(bounds), Some(camera)) = (lit, self.bounds(), self.cameras.first()) else { return self };
+        if bounds.radius() > 0.0 {
+            let (corners, radiance) = lamp(&bounds, camera);
+            let material = self.materials.len() as u32;
+            self.materials.push(("default light".into(), Material { emission: Vec3::splat(radiance as f32), ..Material::lambert(Vec3::ZERO) }));
+            for [a, b, c] in [[0, 1, 2], [0, 2, 3]] {
+                self.triangles.push(PartTriangle { corners: [corners[a], corners[b], corners[c]], normals: None, material });
+            }
+            self.notes.push("No area light in the file: a large one above and behind the camera was added.".into());
+        }
+        self
+    }
+}
+
+/// Area of a triangle, m².
+fn area(t: &PartTriangle) -> f64 {
+    let [p0, p1, p2] = t.corners;
+    0.5 * (p1 - p0).cross(p2 - p0).length()
+}
+
+/// A camera in front of the scene (glTF's front is +Z), a little above and to the right, that sees all of it.
+fn framed_camera(bounds: &Bounds) -> PartCamera {
+    let back = DVec3::new(0.35, 0.25, 1.0).normalize();
+    let distance = bounds.radius() / (0.5 * YFOV).sin();
+    PartCamera { name: "framed".into(), position: bounds.centre() + back * distance, axis: -back, up: DVec3::Y, yfov: YFOV }
+}
+
+/// The default lamp: the corners of a square, counter-clockwise seen from what it lights, and its radiance, W m⁻² sr⁻¹.
+///
+/// It lies wholly behind the camera's plane, so it hides nothing; seen from outside the scene it faces the centre, from
+/// inside it faces what the camera looks at.
+fn lamp(bounds: &Bounds, camera: &PartCamera) -> ([DVec3; 4], f64) {
+    let axis = camera.axis.normalize_or(DVec3::NEG_Z);
+    let right = axis.cross(camera.up).normalize_or(axis.any_orthonormal_vector());
+    let up = right.cross(axis);
+    let (reach, target) = if bounds.contains(camera.position) {
+        let reach = 0.2 * bounds.radius();
+        (reach, camera.position + axis * (2.0 * reach))
+    } else {
+        ((bounds.centre() - camera.position).length().max(bounds.radius()), bounds.centre())
+    };
+    let centre = camera.position + (up * 0.8 + right * 0.4 - axis * 0.5) * reach;
+    let side = 0.6 * reach;
+    let normal = (target - centre).normalize_or(axis);
+    let (u, v) = normal.any_orthonormal_pair();
+    let corner = |a: f64, b: f64| centre + (u * a + v * b) * (0.5 * side);
+    let radiance = IRRADIANCE * (target - centre).length_squared() / (side * side);
+    ([corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)], radiance)
+}

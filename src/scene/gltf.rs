@@ -1,0 +1,86 @@
+//! Loads glTF 2.0 (.gltf and .glb): triangles, cameras, area lights and the materials we have models for.
+//!
+//! Node transforms are composed in f64; everything the file does not say, and everything of it that is not shown, is named in
+//! [`Scene::notes`]. A file that cannot be read is an error of one line that names the element and what to do.
+
+mod accessor;
+mod container;
+mod material;
+mod mesh;
+mod nodes;
+
+use super::{Parts, Scene, SceneError};
+use container::Document;
+use material::Materials;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Extensions whose meaning we know; a file may require them.
+const KNOWN_EXTENSIONS: [&str; 9] = [
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    "KHR_lights_punctual",
+];
+
+/// Loads a .gltf or .glb file.
+///
+/// # Errors
+/// If the file or a buffer it names cannot be read, anything it refers to does not exist or does not fit, it requires an
+/// extension we do not know, or it shows no triangle.
+pub fn load(path: &Path) -> Result<Scene, SceneError> {
+    let bytes = std::fs::read(path).map_err(|e| match e.kind() {
+        std::io::ErrorKind::NotFound => SceneError::file(path, "there is no such file; check the path"),
+        _ => SceneError::file(path, format!("cannot be read ({e}); check the path and its permissions")),
+    })?;
+    let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
+    read(&name, path, &bytes, Some(path.parent().unwrap_or(Path::new(""))))
+}
+
+/// Loads a .glb (or a self-contained .gltf) from memory; `name` is used for the scene and in errors.
+///
+/// # Errors
+/// As [`load`]; a buffer in another file is an error too.
+pub fn load_bytes(name: &str, bytes: &[u8]) -> Result<Scene, SceneError> {
+    read(name, Path::new(name), bytes, None)
+}
+
+fn read(name: &str, file: &Path, bytes: &[u8], folder: Option<&Path>) -> Result<Scene, SceneError> {
+    let document = Document::parse(file, bytes, folder)?;
+    if let Some(extension) = document.root.extensions_required.iter().find(|e| !KNOWN_EXTENSIONS.contains(&e.as_str())) {
+        return Err(SceneError::file(file, format!("it requires the extension {extension}, which cannot be read; export it without")));
+    }
+    let placed = nodes::placed(&document)?;
+    let mut notes = Vec::new();
+    let mut ignored = BTreeMap::new();
+    let mut materials = Materials::new(&document);
+    let cameras = nodes::cameras(&document, &placed, &mut notes)?;
+    let triangles = mesh::triangles(&document, &placed, &mut materials, &mut ignored)?;
+    let list = std::mem::take(&mut materials.list);
+    notes.extend(materials.notes());
+    notes.extend(ignored_parts(&document, ignored));
+    let parts = Parts { name: name.to_owned(), triangles, materials: list, cameras, notes };
+    // Errors name the file as the user did, not as the scene is called.
+    Scene::assemble(parts.with_default_camera().with_default_light()).map_err(|e| SceneError { file: file.display().to_string(), ..e })
+}
+
+/// A sentence for each kind of thing in the file that is not shown.
+fn ignored_parts(document: &Document, mut counts: BTreeMap<&'static str, usize>) -> Vec<String> {
+    let root = &document.root;
+    let mut count = |what, n| *counts.entry(what).or_default() += n;
+    count("animations", root.animations.len());
+    count("skins", root.skins.len());
+    let primitives = || root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    count("primitives with morph targets, shown in their rest shape", primitives().filter(|p| p.targets.as_ref().is_some_and(|t| !t.is_empty())).count());
+    count("point, spot or directional lights", root.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref()).map_or(0, |e| e.lights.len()));
+    let environments = root.scenes.iter().filter(|s| s.extras.as_ref().is_some_and(|e| e.get().contains("\"environment\""))).count();
+    count("environment lights", environments);
+    let counts = counts.into_iter().filter(|(_, n)| *n > 0).map(|(what, n)| format!("Ignored: {what} ({n})."));
+    let unknown = root.extensions_used.iter().filter(|e| !KNOWN_EXTENSIONS.contains(&e.as_str()));
+    counts.chain(unknown.map(|extension| format!("Ignored: the extension {extension}."))).collect()
+}

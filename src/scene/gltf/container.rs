@@ -1,0 +1,129 @@
+//! From bytes to a glTF document and its buffers: the .glb container, the JSON, external files and data URIs.
+//!
+//! The crate's own validation is not used: it refuses files that require extensions we read, and its readers trust what it
+//! has not checked. Everything that is read here and in `accessor` is checked first, so a hostile file is an error.
+
+use super::super::SceneError;
+use ::gltf::buffer::{Data, Source};
+use ::gltf::json::{self, Root};
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+
+/// A parsed document with the contents of all its buffers.
+pub struct Document<'a> {
+    /// The file as the user named it, for errors.
+    pub file: &'a Path,
+    /// The JSON.
+    pub root: Root,
+    /// The bytes of each buffer, at least as many as it declares.
+    pub buffers: Vec<Cow<'a, [u8]>>,
+}
+
+impl<'a> Document<'a> {
+    /// Parses `bytes`; external buffers are looked for in `folder`, if there is one.
+    pub fn parse(file: &'a Path, bytes: &'a [u8], folder: Option<&Path>) -> Result<Self, SceneError> {
+        let (text, blob) = split_container(bytes).map_err(|reason| SceneError::file(file, reason))?;
+        let root: Root = json::deserialize::from_slice(text).map_err(|e| SceneError::file(file, not_gltf(text, &e.to_string())))?;
+        if !root.asset.version.starts_with("2.") {
+            return Err(SceneError::file(file, format!("glTF version {} cannot be read; export it as glTF 2.0", root.asset.version)));
+        }
+        let mut document = Self { file, root, buffers: Vec::new() };
+        for index in 0..document.root.buffers.len() {
+            let bytes = document.buffer(index, blob, folder).map_err(|reason| document.error(format!("buffer {index}"), reason))?;
+            document.buffers.push(bytes);
+        }
+        Ok(document)
+    }
+
+    /// An error about one element of this file.
+    pub fn error(&self, element: impl Into<String>, reason: impl Into<String>) -> SceneError {
+        SceneError::element(self.file, element, reason)
+    }
+
+    /// The contents of one buffer.
+    fn buffer(&self, index: usize, blob: Option<&'a [u8]>, folder: Option<&Path>) -> Result<Cow<'a, [u8]>, String> {
+        let buffer = &self.root.buffers[index];
+        let bytes: Cow<[u8]> = match (&buffer.uri, blob) {
+            (Some(uri), _) if uri.starts_with("data:") => {
+                let data = Data::from_source(Source::Uri(uri), None);
+                Cow::Owned(data.map_err(|e| format!("its data URI is not base64 ({e}); export the file again"))?.0)
+            }
+            (Some(uri), _) => Cow::Owned(external(uri, folder)?),
+            (None, Some(blob)) if index == 0 => Cow::Borrowed(blob),
+            (None, _) => return Err("it names no file and the container holds no data for it; export the file again".into()),
+        };
+        if (bytes.len() as u64) < buffer.byte_length.0 {
+            return Err(format!("it has {} bytes of the {} declared; the file is cut short, copy or export it again", bytes.len(), buffer.byte_length.0));
+        }
+        Ok(bytes)
+    }
+}
+
+/// Splits a .glb into its JSON and its binary chunk; a .gltf is all JSON.
+fn split_container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
+    if !bytes.starts_with(b"glTF") {
+        return Ok((bytes, None));
+    }
+    let word = |at: usize| bytes.get(at..at + 4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
+    let cut = || format!("the .glb file is cut short at {} bytes; copy or export it again", bytes.len());
+    let (version, length) = (word(4).ok_or_else(cut)?, word(8).ok_or_else(cut)? as usize);
+    if version != 2 {
+        return Err(format!("glTF container version {version} cannot be read; export it as glTF 2.0"));
+    }
+    if length > bytes.len() {
+        return Err(format!("the .glb file is cut short: {} of {length} bytes; copy or export it again", bytes.len()));
+    }
+    let chunk = |at: usize| -> Result<(u32, &[u8]), String> {
+        let (size, kind) = (word(at).ok_or_else(cut)? as usize, word(at + 4).ok_or_else(cut)?);
+        let data = (at + 8).checked_add(size).and_then(|end| bytes.get(at + 8..end));
+        Ok((kind, data.ok_or_else(cut)?))
+    };
+    let (kind, text) = chunk(12)?;
+    if kind != u32::from_le_bytes(*b"JSON") {
+        return Err("the first chunk of the .glb file is not JSON; export it again".into());
+    }
+    // Chunks of unknown kinds after the binary one are to be ignored; padding may end the file.
+    let next = 20 + text.len().next_multiple_of(4);
+    let blob = if next + 8 <= length { Some(chunk(next)?) } else { None };
+    Ok((text, blob.filter(|(kind, _)| *kind == u32::from_le_bytes(*b"BIN\0")).map(|(_, data)| data)))
+}
+
+/// Says why `text` is not a glTF document.
+fn not_gltf(text: &[u8], parser: &str) -> String {
+    if text.iter().find(|b| !b.is_ascii_whitespace()) == Some(&b'{') {
+        format!("its JSON is not a valid glTF document ({parser}); export it again")
+    } else {
+        "not a glTF file; open a .gltf or .glb file".into()
+    }
+}
+
+/// Reads an external buffer.
+fn external(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
+    let scheme = uri.split_once(':').map(|(scheme, _)| scheme).filter(|s| s.len() > 1 && s.chars().all(char::is_alphanumeric));
+    if let Some(scheme) = scheme {
+        return Err(format!("'{uri}' has the scheme '{scheme}', only files beside this one are read; export it as one .glb file"));
+    }
+    let folder = folder.ok_or_else(|| format!("it lies in another file, '{uri}'; export the scene as one .glb file"))?;
+    let path = folder.join(decoded(uri));
+    std::fs::read(&path).map_err(|e| format!("cannot read '{}' ({e}); put it there or export the scene as one .glb file", path.display()))
+}
+
+/// A URI's percent escapes resolved; what is no escape, or no UTF-8 afterwards, stays as it is.
+fn decoded(uri: &str) -> PathBuf {
+    let bytes = uri.as_bytes();
+    let (mut out, mut i) = (Vec::with_capacity(bytes.len()), 0);
+    while i < bytes.len() {
+        let escape = bytes.get(i + 1..i + 3).filter(|_| bytes[i] == b'%').and_then(|h| std::str::from_utf8(h).ok());
+        match escape.and_then(|hex| u8::from_str_radix(hex, 16).ok()) {
+            Some(byte) => {
+                out.push(byte);
+                i += 3;
+            }
+            None => {
+                out.push(bytes[i]);
+                i += 1;
+            }
+        }
+    }
+    String::from_utf8(out).map_or_else(|_| uri.into(), PathBuf::from)
+}

@@ -1,0 +1,119 @@
+//! Rung 3: strategies against each other, path by path length, with the bounded comparison.
+//!
+//! For strategies i and j, ∫ f h dμ is estimated from either's samples as the mean of (f/p_i) h and (f/p_j) h with
+//! h = p_i p_j/(p_i + p_j)²: h/p_i = p_j/(p_i + p_j)² ≤ 1/(4 p_i …) stays bounded where either density explodes, and h vanishes
+//! where either cannot sample. Both means come from the same pairs of subpaths, so their difference is tested as a pair.
+
+use crate::scenes;
+use crate::stats::{Moments, z_limit};
+use bdpt_explorer::bdpt::connect::Sample;
+use bdpt_explorer::bdpt::mis::log_densities;
+use bdpt_explorer::bdpt::walk::Context;
+use bdpt_explorer::bdpt::{Settings, Strategy};
+use bdpt_explorer::rng::SampleId;
+use bdpt_explorer::scene::{Scene, View};
+use std::collections::BTreeMap;
+
+const K: u32 = 6;
+/// Non-zero samples that each side of a comparison must have.
+const ENOUGH: u64 = 1000;
+
+/// What a strategy of a sample estimates of f, and the path's ln p under every strategy that can sample it.
+struct Estimate {
+    value: f64,
+    ln_p: Vec<f64>,
+}
+
+/// For every length k and pair i < j: moments of the paired difference, and the non-zero samples on each side.
+type Table = BTreeMap<(u32, usize, usize), (Moments, Moments, Moments)>;
+
+fn compare(scene: &Scene, samples: u32, settings: &Settings, spoil: impl Fn(Strategy) -> f64) -> Table {
+    let view = View::new(&scene.cameras[0], 32, 32);
+    let context = Context { scene, view: &view, settings };
+    let mut sample = Sample::default();
+    let mut table = Table::new();
+    for n in 0..samples {
+        let id = SampleId { x: n % 32, y: n / 32 % 32, sample: n / 1024, seed: 17 };
+        sample.trace(&context, id, K as usize, K as usize + 1);
+        for k in 1..=K {
+            let estimates: Vec<Option<Estimate>> = (0..=k)
+                .map(|s| {
+                    let strategy = Strategy::new(s, k + 1 - s);
+                    let contribution = sample.evaluate(&context, strategy).ok()?;
+                    let ln_p = log_densities(&sample.path);
+                    let ln_p = (0..=k as usize).map(|i| if sample.path.samplable[i] { ln_p[i] } else { f64::NEG_INFINITY }).collect();
+                    Some(Estimate { value: f64::from(contribution.contribution_unweighted.element_sum()) * spoil(strategy), ln_p })
+                })
+                .collect();
+            for i in 0..=k as usize {
+                for j in i + 1..=k as usize {
+                    let bounded = |of: usize| estimates[of].as_ref().map_or(0.0, |e| e.value * harmonic(e.ln_p[i], e.ln_p[j]));
+                    let (a, b) = (bounded(i), bounded(j));
+                    let entry = table.entry((k, i, j)).or_default();
+                    entry.0.add(a - b);
+                    entry.1.add(a);
+                    entry.2.add(b);
+                }
+            }
+        }
+    }
+    table
+}
+
+/// h = p_i p_j/(p_i + p_j)², from logarithms.
+fn harmonic(ln_i: f64, ln_j: f64) -> f64 {
+    if ln_i == f64::NEG_INFINITY || ln_j == f64::NEG_INFINITY {
+        return 0.0;
+    }
+    let r = (ln_i - ln_j).exp();
+    if r.is_finite() { r / (1.0 + r).powi(2) } else { 0.0 }
+}
+
+/// The pairs with enough samples, with their z; and how many had not enough.
+fn judged(table: &Table) -> (Vec<((u32, usize, usize), f64)>, usize) {
+    let judged: Vec<_> = table
+        .iter()
+        .filter(|(_, (_, a, b))| a.non_zero >= ENOUGH && b.non_zero >= ENOUGH)
+        .map(|(pair, (difference, _, _))| (*pair, difference.z(0.0)))
+        .collect();
+    let left_out = table.len() - judged.len();
+    (judged, left_out)
+}
+
+/// Level 10⁻³ over all pairs of all scenes together.
+#[test]
+fn every_pair_of_strategies_agrees_per_length() {
+    let scenes = [
+        (scenes::patches(), 600_000),
+        (scenes::furnace(1.0, 0.7), 150_000),
+        (scenes::builtin("cornell"), 300_000),
+        (scenes::specular(), 300_000),
+        (scenes::tilted(), 400_000),
+    ];
+    let mut results = Vec::new();
+    for (scene, samples) in &scenes {
+        for (roulette, fresh_ends) in [(true, true), (false, false)] {
+            let settings = Settings { max_edges: K, roulette, fresh_ends, ..Settings::default() };
+            let (judged, left_out) = judged(&compare(scene, *samples / 2, &settings, |_| 1.0));
+            println!("{}, roulette {roulette}, fresh ends {fresh_ends}: {} pairs judged, {left_out} without enough samples", scene.name, judged.len());
+            assert!(judged.len() >= 10, "{}: too few pairs to mean anything", scene.name);
+            results.extend(judged.into_iter().map(|(pair, z)| (scene.name.clone(), pair, z)));
+        }
+    }
+    let limit = z_limit(1e-3, results.len());
+    let worst = results.iter().max_by(|a, b| a.2.abs().total_cmp(&b.2.abs())).unwrap();
+    println!("{} comparisons, |z| limit {limit:.2}, worst {worst:?}", results.len());
+    assert!(worst.2.abs() < limit, "{worst:?}");
+}
+
+/// Negative control: one strategy 3 % too bright is found.
+#[test]
+fn the_comparison_sees_one_strategy_3_percent_too_bright() {
+    let settings = Settings { max_edges: K, ..Settings::default() };
+    let wrong = Strategy::new(2, 2);
+    let table = compare(&scenes::furnace(1.0, 0.7), 300_000, &settings, |strategy| if strategy == wrong { 1.03 } else { 1.0 });
+    let (judged, _) = judged(&table);
+    let limit = z_limit(1e-3, judged.len());
+    let hit = judged.iter().filter(|((k, i, j), _)| *k == 3 && (*i == 2 || *j == 2));
+    assert!(hit.clone().any(|(_, z)| z.abs() > limit), "{:?}", hit.collect::<Vec<_>>());
+}
