@@ -2,7 +2,7 @@
 //! window without ever blocking it.
 
 use crate::bdpt::record::record as record_sample;
-use crate::bdpt::render::{Counts, Plan, render_rows};
+use crate::bdpt::render::{Counts, Plan, image_mean, render_rows};
 use crate::bdpt::walk::Context;
 use crate::bdpt::{MAX_EDGES, PathRecord, Settings, Strategy, StrategySet};
 use crate::film::Film;
@@ -240,22 +240,25 @@ impl Session {
 
     /// The image, accumulated on its own: mean radiance per pixel of the full film, row by row from the top; 0 outside the crop.
     pub fn image(&self) -> Vec<Vec3> {
-        self.plan.image(&self.film)
+        let means = self.film.means();
+        self.pixels().map(|pixel| image_mean(&means, pixel)).collect()
     }
 
     /// One strategy's image; `None` if it is not kept.
     pub fn layer(&self, strategy: Strategy, weighted: bool) -> Option<Vec<Vec3>> {
-        let mut image = vec![Vec3::ZERO; self.job.size[0] as usize * self.job.size[1] as usize];
-        self.plan.add_layer(&self.film, strategy, weighted, &mut image).then_some(image)
+        let (layer, means) = (self.plan.layer(strategy, weighted)?, self.film.means());
+        Some(self.pixels().map(|pixel| layer.mean(&means, pixel)).collect())
     }
 
     /// The sum of the weighted images of all strategies that are not hidden.
     pub fn image_without(&self, hidden: &StrategySet) -> Vec<Vec3> {
-        let mut image = vec![Vec3::ZERO; self.job.size[0] as usize * self.job.size[1] as usize];
-        for strategy in self.plan.strategies().filter(|x| !hidden.contains(*x)) {
-            self.plan.add_layer(&self.film, strategy, true, &mut image);
-        }
-        image
+        let shown = self.plan.strategies().filter(|x| !hidden.contains(*x));
+        let (layers, means): (Vec<_>, _) = (shown.filter_map(|x| self.plan.layer(x, true)).collect(), self.film.means());
+        self.pixels().map(|pixel| layers.iter().map(|layer| layer.mean(&means, pixel)).sum()).collect()
+    }
+
+    fn pixels(&self) -> std::ops::Range<usize> {
+        0..self.job.size[0] as usize * self.job.size[1] as usize
     }
 
     /// The strategies that take part, in index order.

@@ -10,7 +10,7 @@ use super::connect::{Contribution, Sample};
 use super::settings::Settings;
 use super::strategy::{MAX_VERTICES, Strategy};
 use super::walk::Context;
-use crate::film::{Film, Layers, Rect, Row, Splats};
+use crate::film::{Film, Layers, Means, Rect, Row, Splats};
 use crate::math::Vec3;
 use crate::rng::{BLOCK_SPLAT, SampleId};
 use crate::scene::Scene;
@@ -32,6 +32,27 @@ pub struct Plan {
 struct Slot {
     weighted: Option<usize>,
     raw: Option<usize>,
+}
+
+/// A layer of the film.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LayerId {
+    layer: usize,
+    splat: bool,
+}
+
+impl LayerId {
+    /// Its mean at a pixel.
+    #[inline]
+    pub fn mean(self, means: &Means, pixel: usize) -> Vec3 {
+        if self.splat { means.splat(self.layer, pixel) } else { means.pixel(self.layer, pixel) }
+    }
+}
+
+/// The image at a pixel, accumulated on its own.
+#[inline]
+pub fn image_mean(means: &Means, pixel: usize) -> Vec3 {
+    means.pixel(0, pixel) + means.splat(0, pixel)
 }
 
 /// What a pass counted.
@@ -86,22 +107,11 @@ impl Plan {
         self.strategies.iter().map(|(strategy, _)| *strategy)
     }
 
-    /// Adds a strategy's image to `image`; false if it is not kept.
-    pub fn add_layer(&self, film: &Film, strategy: Strategy, weighted: bool, image: &mut [Vec3]) -> bool {
-        let slot = self.strategies.iter().find(|(x, _)| *x == strategy).map(|(_, slot)| *slot).unwrap_or_default();
-        match if weighted { slot.weighted } else { slot.raw } {
-            None => return false,
-            Some(layer) if strategy.stays_in_pixel() => film.add_pixel_layer(layer, image),
-            Some(layer) => film.add_splat_layer(layer, image),
-        }
-        true
-    }
-
-    /// The image, accumulated on its own.
-    pub fn image(&self, film: &Film) -> Vec<Vec3> {
-        let mut image = film.pixel_layer(0);
-        film.add_splat_layer(0, &mut image);
-        image
+    /// Where a strategy's image is in the film; `None` if it is not kept.
+    pub fn layer(&self, strategy: Strategy, weighted: bool) -> Option<LayerId> {
+        let (_, slot) = self.strategies.iter().find(|(x, _)| *x == strategy)?;
+        let layer = if weighted { slot.weighted } else { slot.raw }?;
+        Some(LayerId { layer, splat: !strategy.stays_in_pixel() })
     }
 }
 

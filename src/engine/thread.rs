@@ -3,6 +3,7 @@
 use super::{Job, JobError, Session, Stats};
 use crate::bdpt::{Strategy, StrategySet};
 use crate::math::Vec3;
+use rayon::prelude::*;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
@@ -200,42 +201,56 @@ impl Worker {
     }
 }
 
-/// One look at a session: every layer is read once, for the sum and for its thumbnail.
+/// One look at a session: every sum is read once, for the image and for its thumbnail, rows in parallel.
 fn make_frame(session: &Session, generation: u64, hidden: StrategySet) -> Frame {
-    let size = session.job().size;
-    let mut image = vec![Vec3::ZERO; size[0] as usize * size[1] as usize];
-    let mut thumbnails = Vec::new();
-    for strategy in session.layers() {
-        let Some(layer) = session.layer(strategy, true) else { continue };
-        if !hidden.contains(strategy) {
-            for (sum, value) in image.iter_mut().zip(&layer) {
-                *sum += *value;
-            }
-        }
-        let energy: f64 = layer.iter().map(|c| f64::from(c.element_sum())).sum();
-        let (size, pixels) = shrink(size, &layer);
-        thumbnails.push(Thumbnail { strategy, size, pixels, share: energy });
-    }
-    let total: f64 = thumbnails.iter().map(|t| t.share).sum();
-    if total > 0.0 {
-        thumbnails.iter_mut().for_each(|t| t.share /= total);
-    }
-    let stats = session.stats();
-    let pairs_per_second = if stats.seconds > 0.0 { stats.pairs as f64 / stats.seconds } else { 0.0 };
-    Frame { generation, size, image, thumbnails, hidden, stats, pairs_per_second }
-}
-
-/// Box-filters an image to at most [`THUMBNAIL_SIDE`] pixels a side.
-fn shrink([width, height]: [u32; 2], image: &[Vec3]) -> ([u32; 2], Vec<Vec3>) {
+    let [width, height] = session.job.size;
     let factor = width.max(height).div_ceil(THUMBNAIL_SIDE).max(1);
     let small = [width.div_ceil(factor), height.div_ceil(factor)];
-    let mut sums = vec![(Vec3::ZERO, 0.0f32); (small[0] * small[1]) as usize];
-    for (y, row) in image.chunks(width as usize).enumerate() {
-        let line = (y as u32 / factor * small[0]) as usize;
-        for (x, pixel) in row.iter().enumerate() {
-            let cell = &mut sums[line + x / factor as usize];
-            *cell = (cell.0 + *pixel, cell.1 + 1.0);
-        }
-    }
-    (small, sums.into_iter().map(|(sum, count)| sum / count).collect())
+    let layers: Vec<_> = session.plan.strategies().filter_map(|x| Some((x, session.plan.layer(x, true)?, !hidden.contains(x)))).collect();
+    let means = session.film.means();
+
+    // One row of thumbnails per chunk of rows; `sums` is [strategy][column].
+    let mut image = vec![Vec3::ZERO; width as usize * height as usize];
+    let columns = small[0] as usize;
+    let chunks = image.par_chunks_mut((width * factor) as usize).enumerate();
+    let thumbnail_rows: Vec<Vec<Vec3>> = chunks
+        .map(|(chunk, rows)| {
+            let first = chunk * (width * factor) as usize;
+            let mut sums = vec![Vec3::ZERO; layers.len() * columns];
+            for (i, pixel) in rows.iter_mut().enumerate() {
+                let column = i % width as usize / factor as usize;
+                for (n, (_, layer, shown)) in layers.iter().enumerate() {
+                    let value = layer.mean(&means, first + i);
+                    sums[n * columns + column] += value;
+                    if *shown {
+                        *pixel += value;
+                    }
+                }
+            }
+            sums
+        })
+        .collect();
+
+    let thumbnails = thumbnails(&layers.iter().map(|(x, _, _)| *x).collect::<Vec<_>>(), small, &thumbnail_rows, [width, height], factor);
+    let stats = session.stats();
+    let pairs_per_second = if stats.seconds > 0.0 { stats.pairs as f64 / stats.seconds } else { 0.0 };
+    Frame { generation, size: [width, height], image, thumbnails, hidden, stats, pairs_per_second }
+}
+
+/// Thumbnails from their rows of sums, with each one's share of the energy.
+fn thumbnails(strategies: &[Strategy], small: [u32; 2], rows: &[Vec<Vec3>], [width, height]: [u32; 2], factor: u32) -> Vec<Thumbnail> {
+    let columns = small[0] as usize;
+    let energy = |n: usize| rows.iter().flat_map(|row| &row[n * columns..(n + 1) * columns]).map(|c| f64::from(c.element_sum())).sum::<f64>();
+    let total: f64 = (0..strategies.len()).map(energy).sum();
+    // Cells at the right and the lower border may cover fewer pixels.
+    let covered = |i: u32, side: u32| factor.min(side - i * factor) as f32;
+    let pixels = |n: usize| {
+        let cells = rows.iter().zip(0u32..).flat_map(move |(row, y)| row[n * columns..(n + 1) * columns].iter().zip(0u32..).map(move |(sum, x)| (sum, x, y)));
+        cells.map(|(sum, x, y)| *sum / (covered(x, width) * covered(y, height))).collect()
+    };
+    strategies
+        .iter()
+        .enumerate()
+        .map(|(n, &strategy)| Thumbnail { strategy, size: small, pixels: pixels(n), share: if total > 0.0 { energy(n) / total } else { 0.0 } })
+        .collect()
 }

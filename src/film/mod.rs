@@ -127,44 +127,10 @@ impl Film {
         }
     }
 
-    /// Mean of a pixel layer, per pixel from the top left; black where there is no sample yet.
-    pub fn pixel_layer(&self, layer: usize) -> Vec<Vec3> {
-        let mut image = vec![Vec3::ZERO; self.size[0] as usize * self.size[1] as usize];
-        self.add_pixel_layer(layer, &mut image);
-        image
-    }
-
-    /// Mean of a splat layer, per pixel from the top left.
-    pub fn splat_layer(&self, layer: usize) -> Vec<Vec3> {
-        let mut image = vec![Vec3::ZERO; self.size[0] as usize * self.size[1] as usize];
-        self.add_splat_layer(layer, &mut image);
-        image
-    }
-
-    /// Adds the mean of a pixel layer to an image.
-    pub fn add_pixel_layer(&self, layer: usize, image: &mut [Vec3]) {
-        let (width, stride) = (self.size[0] as usize, self.layers.pixel * 3);
-        for (y, (row, &samples)) in image.chunks_mut(width).zip(&self.row_samples).enumerate() {
-            let scale = 1.0 / f64::from(samples.max(1));
-            for (x, pixel) in row.iter_mut().enumerate() {
-                let at = (y * width + x) * stride + layer * 3;
-                *pixel += vec3(&self.sums[at..at + 3], scale);
-            }
-        }
-    }
-
-    /// Adds the mean of a splat layer to an image: what landed, over the passes' worth of light subpaths that were traced.
-    pub fn add_splat_layer(&self, layer: usize, image: &mut [Vec3]) {
+    /// The means, for someone who looks at the film as it is now.
+    pub fn means(&self) -> Means<'_> {
         let passes = self.mean_samples();
-        if passes == 0.0 {
-            return;
-        }
-        let stride = self.layers.splat * 3;
-        for (i, pixel) in image.iter_mut().enumerate() {
-            let at = i * stride + layer * 3;
-            let sum = |c: usize| self.folded[at + c] + self.splats[at + c].load(Ordering::Relaxed) as f64 * f64::from(self.quantum);
-            *pixel += vec3(&[sum(0), sum(1), sum(2)], 1.0 / passes);
-        }
+        Means { film: self, splat_scale: if passes > 0.0 { 1.0 / passes } else { 0.0 } }
     }
 
     /// Samples per pixel, averaged over the rows: whole after every complete pass.
@@ -173,8 +139,36 @@ impl Film {
     }
 }
 
-fn vec3(sum: &[f64], scale: f64) -> Vec3 {
-    Vec3::new((sum[0] * scale) as f32, (sum[1] * scale) as f32, (sum[2] * scale) as f32)
+/// Sums over counts, per layer and pixel; pixels are counted row by row from the top left.
+#[derive(Clone, Copy)]
+pub struct Means<'a> {
+    film: &'a Film,
+    splat_scale: f64,
+}
+
+impl Means<'_> {
+    /// Mean of a pixel layer at a pixel; black where there is no sample yet.
+    #[inline]
+    pub fn pixel(&self, layer: usize, pixel: usize) -> Vec3 {
+        let film = self.film;
+        let at = (pixel * film.layers.pixel + layer) * 3;
+        let samples = film.row_samples[pixel / film.size[0] as usize];
+        vec3(|c| film.sums[at + c], 1.0 / f64::from(samples.max(1)))
+    }
+
+    /// Mean of a splat layer at a pixel: what landed, over the passes' worth of light subpaths that were traced.
+    #[inline]
+    pub fn splat(&self, layer: usize, pixel: usize) -> Vec3 {
+        let film = self.film;
+        let at = (pixel * film.layers.splat + layer) * 3;
+        let quantum = f64::from(film.quantum);
+        vec3(|c| film.folded[at + c] + film.splats[at + c].load(Ordering::Relaxed) as f64 * quantum, self.splat_scale)
+    }
+}
+
+#[inline]
+fn vec3(sum: impl Fn(usize) -> f64, scale: f64) -> Vec3 {
+    Vec3::new((sum(0) * scale) as f32, (sum(1) * scale) as f32, (sum(2) * scale) as f32)
 }
 
 impl Row<'_> {
@@ -230,7 +224,7 @@ mod tests {
             }
             rows[0].count_sample();
             film.fold();
-            film.splat_layer(0)[1].x
+            film.means().splat(0, 1).x
         };
         let exact: f64 = values.iter().map(|&v| f64::from(v)).sum();
         let (forth, back) = (mean(&mut values.iter()), mean(&mut values.iter().rev()));
@@ -255,6 +249,6 @@ mod tests {
             rows[0].count_sample();
         }
         drop(rows);
-        assert!((film.pixel_layer(0)[0].x - 0.3).abs() < 1e-7);
+        assert!((film.means().pixel(0, 0).x - 0.3).abs() < 1e-7);
     }
 }
