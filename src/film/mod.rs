@@ -41,7 +41,7 @@ impl Rect {
 /// How many layers of each kind a film has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layers {
-    /// Layers whose contributions stay in their pixel.
+    /// Layers whose contributions stay in their pixel; at least one.
     pub pixel: usize,
     /// Layers whose contributions land anywhere.
     pub splat: usize,
@@ -109,7 +109,7 @@ impl Film {
         let stride = self.size[0] as usize * self.layers.pixel * 3;
         let (first, end) = (first as usize, (first + count) as usize);
         let splats = Splats { size: self.size, layers: self.layers.splat, cells: &self.splats, quantum: self.quantum };
-        let sums = self.sums[first * stride..end * stride].chunks_mut(stride.max(1));
+        let sums = self.sums[first * stride..end * stride].chunks_mut(stride);
         let samples = self.row_samples[first..end].iter_mut();
         let layers = self.layers;
         let rows = sums.zip(samples).zip(first as u32..).map(|((sums, samples), y)| Row { y, sums, samples, layers }).collect();
@@ -214,7 +214,7 @@ mod tests {
 
     #[test]
     fn splats_keep_the_mean_and_do_not_care_about_order() {
-        let film = || Film::new([2, 1], Layers { pixel: 0, splat: 1 }, 1.0);
+        let film = || Film::new([2, 1], Layers { pixel: 1, splat: 1 }, 1.0);
         let values: Vec<f32> = (0..10_000).map(|i| ((i * 7919) % 10_007) as f32 * 1e-7).collect();
         let mean = |order: &mut dyn Iterator<Item = &f32>| {
             let mut film = film();
@@ -233,7 +233,7 @@ mod tests {
 
     #[test]
     fn a_splat_too_large_to_count_says_so() {
-        let mut film = Film::new([1, 1], Layers { pixel: 0, splat: 1 }, 1.0);
+        let mut film = Film::new([1, 1], Layers { pixel: 1, splat: 1 }, 1.0);
         let (_, splats) = film.rows(0, 1);
         assert!(splats.add([0, 0], 0, Vec3::splat(1000.0), [0.5; 3]));
         assert!(!splats.add([0, 0], 0, Vec3::splat(1e9), [0.5; 3]));
