@@ -9,12 +9,12 @@ use bdpt_explorer::scene::Scene;
 use std::sync::Arc;
 use std::time::Duration;
 
-fn job(scene: &Arc<Scene>, size: [u32; 2], settings: Settings) -> Job {
+pub fn job(scene: &Arc<Scene>, size: [u32; 2], settings: Settings) -> Job {
     Job { size, settings, ..Job::new(Arc::clone(scene)) }
 }
 
 /// A session after `passes` complete passes.
-fn rendered(job: Job, passes: u32) -> Session {
+pub fn rendered(job: Job, passes: u32) -> Session {
     let mut session = Session::new(job).expect("the job is a valid one");
     while session.passes() < passes {
         session.step(Duration::from_secs(1));
@@ -24,16 +24,16 @@ fn rendered(job: Job, passes: u32) -> Session {
     session
 }
 
-fn mean(image: &[Vec3]) -> f64 {
+pub fn mean(image: &[Vec3]) -> f64 {
     image.iter().map(|c| f64::from(c.element_sum()) / 3.0).sum::<f64>() / image.len() as f64
 }
 
 /// The image mean over independent seeds.
-fn mean_over_seeds(scene: &Arc<Scene>, settings: Settings, seeds: u32, passes: u32) -> Moments {
+pub fn mean_over_seeds(scene: &Arc<Scene>, settings: Settings, seeds: u32, passes: u32) -> Moments {
     let mut moments = Moments::default();
     for seed in 0..seeds {
         // Different settings get different seeds: the means are then independent.
-        let seed = seed * 1000 + u32::from(settings.roulette) + 2 * settings.heuristic.kind as u32 + 20 * u32::from(settings.strategies == StrategySet::ALL);
+        let seed = seed * 1000 + u32::from(settings.roulette) + 2 * settings.heuristic.kind as u32 + 20 * u32::from(settings.strategies == StrategySet::ALL) + 40 * u32::from(settings.strategies.contains(Strategy::new(2, 1)));
         moments.add(mean(&rendered(job(scene, [24, 24], Settings { seed, ..settings }), passes).image()));
     }
     moments

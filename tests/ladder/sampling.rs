@@ -2,6 +2,8 @@
 
 use crate::scenes;
 use crate::stats::chi_squared;
+use bdpt_explorer::bdpt::walk::Context;
+use bdpt_explorer::bdpt::{Settings, Subpath};
 use bdpt_explorer::math::{INV_PI, Vec2, Vec3, sample_cosine_hemisphere, sample_disk, sample_triangle};
 use bdpt_explorer::rng::{SampleId, pair};
 use bdpt_explorer::scene::bsdf::fresnel_dielectric;
@@ -109,6 +111,25 @@ fn the_camera_covers_its_film_with_the_stated_density() {
         assert!((again - w).length() < 1e-6);
         assert!((view.w_e(w) / view.pdf_direction_psa(w) / view.pixels() - 1.0).abs() < 1e-6);
     }
+}
+
+#[test]
+fn eye_subpaths_start_uniformly_in_their_pixel() {
+    let scene = scenes::patches();
+    let (view, settings) = (View::new(&scene.cameras[0], 600, 400), Settings::default());
+    let context = Context { scene: &scene, view: &view, settings: &settings };
+    let mut subpath = Subpath::new();
+    let mut in_pixel = |i: u32| {
+        let id = SampleId { x: 599 - i % 3, y: i % 400, sample: i / 1200, seed: 4 };
+        let raster = context.eye_subpath(id, 1, &mut subpath, &mut 0);
+        assert_eq!(view.pixel(raster), Some([id.x, id.y]));
+        raster - Vec2::new(id.x as f32, id.y as f32)
+    };
+    let points: Vec<Vec2> = (0..N).map(&mut in_pixel).collect();
+    let p = cells(|i| points[i as usize], |a, b| f64::from((b.x - a.x) * (b.y - a.y)));
+    assert!(p > LEVEL, "p = {p}");
+    let p = cells(|i| points[i as usize] * Vec2::new(0.99, 1.0), |a, b| f64::from((b.x - a.x) * (b.y - a.y)));
+    assert!(p < LEVEL, "a pixel 1 % too narrow passes: p = {p}");
 }
 
 #[test]

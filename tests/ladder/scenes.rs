@@ -102,10 +102,65 @@ pub fn builtin(name: &str) -> Arc<Scene> {
 
 /// A closed room of one albedo whose faces all emit inwards: paths of k edges carry exactly L_e ρ^(k−1).
 pub fn furnace(radiance: f32, albedo: f32) -> Arc<Scene> {
+    furnace_at(radiance, albedo, 1.0, 0.0)
+}
+
+/// The furnace scaled, and then moved along all axes (m).
+pub fn furnace_at(radiance: f32, albedo: f32, scale: f64, offset: f64) -> Arc<Scene> {
+    let at = |p: [f64; 3]| p.map(|c| c * scale + offset);
     let mut room = Room::new("furnace");
     let m = room.emitter(radiance, albedo, false);
-    room.cuboid([-1.0; 3], [1.0, 1.2, 1.4], true, [m; 6]);
-    room.camera([0.1, 0.2, 0.3], [1.0, 0.3, -0.4], 60.0);
+    room.cuboid(at([-1.0; 3]), at([1.0, 1.2, 1.4]), true, [m; 6]);
+    room.camera(at([0.1, 0.2, 0.3]), at([1.0, 0.3, -0.4]), 60.0);
+    room.build()
+}
+
+/// A small lamp inside a glass sphere in a white room: every path from it is refracted first.
+pub fn lamp_in_glass() -> Arc<Scene> {
+    let mut room = Room::new("lamp in glass");
+    let white = room.material(Material::lambert(Vec3::splat(0.6)));
+    let glass = room.material(Material::dielectric(Vec3::ONE, 1.5, false));
+    let lamp = room.emitter(10.0, 0.2, true);
+    room.cuboid([-1.0; 3], [1.0; 3], true, [white; 6]);
+    room.sphere([0.0, 0.2, 0.0], 0.45, 24, true, glass);
+    room.quad([-0.15, 0.2, -0.15], [0.3, 0.0, 0.0], [0.0, 0.0, 0.3], lamp);
+    room.camera([0.0, 0.0, 0.95], [0.0, -0.1, -1.0], 70.0);
+    room.build()
+}
+
+/// Camera and lamp that a mirror alone connects: only the eye path that happens to hit the lamp can make these paths.
+pub fn only_a_mirror() -> Arc<Scene> {
+    let mut room = Room::new("only a mirror");
+    let mirror = room.material(Material::mirror(Vec3::splat(0.9)));
+    let lamp = room.emitter(3.0, 0.0, false);
+    room.quad([-1.0, -1.0, -1.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], mirror);
+    room.quad([-1.0, -1.0, 2.0], [0.0, 2.0, 0.0], [2.0, 0.0, 0.0], lamp);
+    room.camera([0.0, 0.0, 1.0], [0.0, 0.0, -1.0], 40.0);
+    room.build()
+}
+
+/// A room without any light.
+pub fn dark() -> Arc<Scene> {
+    let mut room = Room::new("dark");
+    let white = room.material(Material::lambert(Vec3::splat(0.8)));
+    room.cuboid([-1.0; 3], [1.0; 3], true, [white; 6]);
+    room.camera([0.0; 3], [0.0, 0.0, -1.0], 70.0);
+    room.build()
+}
+
+/// Needle-thin triangles and a lamp much smaller, and one much larger, than anything else.
+pub fn extremes() -> Arc<Scene> {
+    let mut room = Room::new("extremes");
+    let white = room.material(Material::lambert(Vec3::splat(0.7)));
+    let (tiny, huge) = (room.emitter(1e8, 0.0, false), room.emitter(1e-3, 0.5, true));
+    room.quad([-1.0, 0.0, -1.0], [0.0, 0.0, 2.0], [2.0, 0.0, 0.0], white);
+    for i in 0..50 {
+        let x = f64::from(i) * 0.03 - 0.75;
+        room.quad([x, 0.2, -1.0], [1e-5, 0.0, 0.0], [0.0, 0.3, 2.0], white);
+    }
+    room.quad([0.2, 0.9, 0.0], [1e-4, 0.0, 0.0], [0.0, 0.0, 1e-4], tiny);
+    room.quad([-500.0, 50.0, -500.0], [1000.0, 0.0, 0.0], [0.0, 0.0, 1000.0], huge);
+    room.camera([0.0, 0.6, 1.8], [0.0, 0.1, 0.0], 50.0);
     room.build()
 }
 
