@@ -1,14 +1,9 @@
-use bdpt_explorer::{engine::*, scene::builtin, bdpt::*};
+use bdpt_explorer::{engine::*, scene::builtin, bdpt::Settings};
 fn main(){
   let scene = std::sync::Arc::new(builtin::open("cornell").unwrap());
-  let mut s = Session::new(Job{weighted_layers: true, ..Job::new(scene.clone())}).unwrap();
-  while s.passes()<2 { s.step(std::time::Duration::from_secs(1)); }
-  for _ in 0..4 { let t=std::time::Instant::now();
-   
-  println!("layers {:?}", t.elapsed());
-  let t=std::time::Instant::now(); std::hint::black_box(s.image_without(&StrategySet::NONE));
-  println!("image {:?}", t.elapsed()); 
-  let t=std::time::Instant::now(); for i in 0..100 { std::hint::black_box(record(s.job(),[i*3,200],1)); }
-  println!("record {:?}", t.elapsed()/100); 
-  }
+  let pyr = std::env::args().nth(1).is_some();
+  let mut s = Session::new(Job{settings: Settings{max_edges:10,..Default::default()}, weighted_layers: pyr, raw_layers: pyr, ..Job::new(scene)}).unwrap();
+  while s.passes()<4 { s.step(std::time::Duration::from_secs(1)); }
+  let st=s.stats(); let r=(st.rays_closest+st.rays_shadow) as f64;
+  println!("{:.3} Mpairs/s/core {:.2} Mrays/s/core {:.1} rays/pair wall {:.2} cpu {:.2}", st.pairs as f64/st.cpu_seconds*1e-6, r/st.cpu_seconds*1e-6, r/st.pairs as f64, st.seconds, st.cpu_seconds);
 }

@@ -21,6 +21,16 @@ pub struct PartTriangle {
     pub material: u32,
 }
 
+impl PartTriangle {
+    /// The corners relative to `origin` and the unit normal, in the precision and by the products the renderers use;
+    /// `None` if that makes no area.
+    pub fn relative_to(&self, origin: DVec3) -> Option<([Vec3; 3], Vec3)> {
+        let corners = self.corners.map(|p| (p - origin).as_vec3());
+        let [p0, p1, p2] = corners;
+        Some((corners, (p1 - p0).cross(p2 - p0).try_normalize()?))
+    }
+}
+
 /// A camera in the file's coordinates.
 #[derive(Clone, Debug)]
 pub struct PartCamera {
@@ -114,7 +124,11 @@ impl Scene {
             return Err(parts.error(format!("the scene has no triangles: all {dropped} are without area")));
         }
         if dropped > 0 {
-            parts.notes.push(format!("{dropped} triangle{} without area {} dropped.", plural(dropped), if dropped == 1 { "was" } else { "were" }));
+            parts.notes.push(format!(
+                "{dropped} triangle{} without area {} dropped.",
+                plural(dropped),
+                if dropped == 1 { "was" } else { "were" }
+            ));
         }
         let cameras = parts.cameras.iter().map(|c| camera(c, origin)).collect::<Option<Vec<_>>>().filter(|list| !list.is_empty());
         let cameras = cameras.ok_or_else(|| parts.error("the scene has no usable camera; add a perspective camera"))?;
@@ -122,7 +136,19 @@ impl Scene {
         let (material_names, materials): (Vec<_>, Vec<_>) = parts.materials.into_iter().unzip();
         let lights = Lights::collect(&mut triangles, &materials);
         let features = SceneFeatures::of(&triangles, &materials);
-        Ok(Self { name: parts.name, origin, triangles, normals, materials, material_names, lights, bvh, cameras, notes: parts.notes, features })
+        Ok(Self {
+            name: parts.name,
+            origin,
+            triangles,
+            normals,
+            materials,
+            material_names,
+            lights,
+            bvh,
+            cameras,
+            notes: parts.notes,
+            features,
+        })
     }
 }
 
@@ -134,9 +160,7 @@ fn recentred(parts: &Parts, origin: DVec3) -> Result<(Vec<Triangle>, Vec<Normals
         if part.material as usize >= parts.materials.len() {
             return Err(parts.error(format!("a triangle uses material {}, of {} there are", part.material, parts.materials.len())));
         }
-        let [p0, p1, p2] = part.corners.map(|p| (p - origin).as_vec3());
-        // The same products the renderers form: what survives them here cannot fail there.
-        let Some(n_g) = (p1 - p0).cross(p2 - p0).try_normalize() else { continue };
+        let Some(([p0, p1, p2], n_g)) = part.relative_to(origin) else { continue };
         let mut triangle = Triangle { p0, material: part.material, p1, light: NONE, p2, normals: NONE };
         if let Some(corners) = part.normals.and_then(|n| shading_normals(n, n_g, part)) {
             triangle.normals = normals.len() as u32;

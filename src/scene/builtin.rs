@@ -33,7 +33,7 @@ static SCENES: [Builtin; 4] = [
     },
     Builtin {
         name: "furnace",
-        teaches: "A closed room that glows everywhere: paths of k edges carry exactly L\u{2091}ρ\u{1d4f}\u{207b}\u{b9}, so every error shows.",
+        teaches: "A closed room that glows everywhere: each path length carries exactly half the radiance of the one before, so every error shows.",
         bytes: include_bytes!("../../assets/furnace.glb"),
     },
 ];

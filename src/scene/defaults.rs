@@ -22,15 +22,18 @@ impl Parts {
         self
     }
 
-    /// Adds a large lamp above and behind the first camera if nothing emits.
+    /// Adds a large lamp above and behind the first camera if there is something to light and nothing emits.
     #[must_use]
     pub fn with_default_light(mut self) -> Self {
-        let lit = self.triangles.iter().any(|t| self.materials.get(t.material as usize).is_some_and(|(_, m)| m.emits()) && area(t) > 0.0);
-        let (false, Some(bounds), Some(camera)) = (lit, self.bounds(), self.cameras.first()) else { return self };
-        if bounds.radius() > 0.0 {
+        let (Some(bounds), Some(camera)) = (self.bounds(), self.cameras.first()) else { return self };
+        let visible = |t: &&PartTriangle| t.relative_to(bounds.centre()).is_some();
+        let emits = |t: &PartTriangle| self.materials.get(t.material as usize).is_some_and(|(_, m)| m.emits());
+        let lit = self.triangles.iter().filter(visible).any(emits);
+        if !lit && self.triangles.iter().any(|t| visible(&t)) {
             let (corners, radiance) = lamp(&bounds, camera);
             let material = self.materials.len() as u32;
-            self.materials.push(("default light".into(), Material { emission: Vec3::splat(radiance as f32), ..Material::lambert(Vec3::ZERO) }));
+            self.materials
+                .push(("default light".into(), Material { emission: Vec3::splat(radiance as f32), ..Material::lambert(Vec3::ZERO) }));
             for [a, b, c] in [[0, 1, 2], [0, 2, 3]] {
                 self.triangles.push(PartTriangle { corners: [corners[a], corners[b], corners[c]], normals: None, material });
             }
@@ -40,16 +43,21 @@ impl Parts {
     }
 }
 
-/// Area of a triangle, m².
-fn area(t: &PartTriangle) -> f64 {
-    let [p0, p1, p2] = t.corners;
-    0.5 * (p1 - p0).cross(p2 - p0).length()
-}
-
-/// A camera in front of the scene (glTF's front is +Z), a little above and to the right, that sees all of it.
+/// A camera in front of the scene (glTF's front is +Z), a little above and to the right: as near as it can be and still see
+/// the whole box in a square picture, with a margin.
 fn framed_camera(bounds: &Bounds) -> PartCamera {
+    const MARGIN: f64 = 1.08;
     let back = DVec3::new(0.35, 0.25, 1.0).normalize();
-    let distance = bounds.radius() / (0.5 * YFOV).sin();
+    let right = DVec3::Y.cross(back).normalize();
+    let up = back.cross(right);
+    let tan = (0.5 * YFOV).tan();
+    let half = 0.5 * (bounds.max - bounds.min);
+    let needed = (0..8u32).map(|i| {
+        let sign = |bit: u32| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };
+        let corner = half * DVec3::new(sign(0), sign(1), sign(2));
+        corner.dot(back) + corner.dot(right).abs().max(corner.dot(up).abs()) * MARGIN / tan
+    });
+    let distance = needed.fold(0.0, f64::max);
     PartCamera { name: "framed".into(), position: bounds.centre() + back * distance, axis: -back, up: DVec3::Y, yfov: YFOV }
 }
 

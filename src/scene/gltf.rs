@@ -12,7 +12,6 @@ mod nodes;
 use super::{Parts, Scene, SceneError};
 use container::Document;
 use material::Materials;
-use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Extensions whose meaning we know; a file may require them.
@@ -57,29 +56,30 @@ fn read(name: &str, file: &Path, bytes: &[u8], folder: Option<&Path>) -> Result<
     }
     let placed = nodes::placed(&document)?;
     let mut notes = Vec::new();
-    let mut ignored = BTreeMap::new();
     let mut materials = Materials::new(&document);
     let cameras = nodes::cameras(&document, &placed, &mut notes)?;
-    let triangles = mesh::triangles(&document, &placed, &mut materials, &mut ignored)?;
+    let triangles = mesh::triangles(&document, &placed, &mut materials, &mut notes)?;
     let list = std::mem::take(&mut materials.list);
     notes.extend(materials.notes());
-    notes.extend(ignored_parts(&document, ignored));
+    notes.extend(ignored_parts(&document));
     let parts = Parts { name: name.to_owned(), triangles, materials: list, cameras, notes };
     // Errors name the file as the user did, not as the scene is called.
     Scene::assemble(parts.with_default_camera().with_default_light()).map_err(|e| SceneError { file: file.display().to_string(), ..e })
 }
 
 /// A sentence for each kind of thing in the file that is not shown.
-fn ignored_parts(document: &Document, mut counts: BTreeMap<&'static str, usize>) -> Vec<String> {
+fn ignored_parts(document: &Document) -> Vec<String> {
     let root = &document.root;
-    let mut count = |what, n| *counts.entry(what).or_default() += n;
-    count("animations", root.animations.len());
-    count("skins", root.skins.len());
-    let primitives = || root.meshes.iter().flat_map(|mesh| &mesh.primitives);
-    count("primitives with morph targets, shown in their rest shape", primitives().filter(|p| p.targets.as_ref().is_some_and(|t| !t.is_empty())).count());
-    count("point, spot or directional lights", root.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref()).map_or(0, |e| e.lights.len()));
-    let environments = root.scenes.iter().filter(|s| s.extras.as_ref().is_some_and(|e| e.get().contains("\"environment\""))).count();
-    count("environment lights", environments);
+    let morphs = root.meshes.iter().flat_map(|mesh| &mesh.primitives).filter(|p| p.targets.as_ref().is_some_and(|t| !t.is_empty()));
+    let punctual = root.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref());
+    let environments = root.scenes.iter().filter(|s| s.extras.as_ref().is_some_and(|e| e.get().contains("\"environment\"")));
+    let counts = [
+        ("animations", root.animations.len()),
+        ("skins", root.skins.len()),
+        ("morph targets, the primitives keep their rest shape", morphs.count()),
+        ("point, spot or directional lights", punctual.map_or(0, |e| e.lights.len())),
+        ("environment lights", environments.count()),
+    ];
     let counts = counts.into_iter().filter(|(_, n)| *n > 0).map(|(what, n)| format!("Ignored: {what} ({n})."));
     let unknown = root.extensions_used.iter().filter(|e| !KNOWN_EXTENSIONS.contains(&e.as_str()));
     counts.chain(unknown.map(|extension| format!("Ignored: the extension {extension}."))).collect()

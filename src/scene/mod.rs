@@ -98,7 +98,16 @@ pub const THIN_DIELECTRIC: u32 = 3;
 impl Material {
     /// A diffuse material of the given albedo.
     pub fn lambert(albedo: Vec3) -> Self {
-        Self { color: albedo, kind: LAMBERT, emission: Vec3::ZERO, ior: 1.0, survival: albedo.max_element().clamp(0.0, 1.0), two_sided: 0, _pad0: 0, _pad1: 0 }
+        Self {
+            color: albedo,
+            kind: LAMBERT,
+            emission: Vec3::ZERO,
+            ior: 1.0,
+            survival: albedo.max_element().clamp(0.0, 1.0),
+            two_sided: 0,
+            _pad0: 0,
+            _pad1: 0,
+        }
     }
 
     /// A mirror of the given reflectance at normal incidence.

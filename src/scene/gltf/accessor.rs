@@ -36,7 +36,8 @@ impl Elements<'_> {
 impl Document<'_> {
     /// Positions or normals: three finite numbers per element, f32 or quantised.
     pub fn read_vec3(&self, index: usize) -> Result<Vec<Vec3>, String> {
-        let vectors = self.read(index, Type::Vec3, |e, i| Vec3::new(e.number(i, 0) as f32, e.number(i, 1) as f32, e.number(i, 2) as f32))?;
+        let vectors =
+            self.read(index, Type::Vec3, |e, i| Vec3::new(e.number(i, 0) as f32, e.number(i, 1) as f32, e.number(i, 2) as f32))?;
         match vectors.iter().position(|v| !v.is_finite()) {
             Some(bad) => Err(format!("accessor {index}, element {bad} is not a finite number; repair the mesh and export it again")),
             None => Ok(vectors),
@@ -73,7 +74,9 @@ impl Document<'_> {
                 let elements = Elements { bytes, stride, component, normalized };
                 (0..accessor.count.0 as usize).map(|i| get(&elements, i)).collect()
             }
-            None if accessor.count.0 > MAX_IMPLICIT => return Err(format!("{what} has {} elements but no data; export the file again", accessor.count.0)),
+            None if accessor.count.0 > MAX_IMPLICIT => {
+                return Err(format!("{what} has {} elements but no data; export the file again", accessor.count.0));
+            }
             None => vec![T::default(); accessor.count.0 as usize],
         };
         if let Some(sparse) = &accessor.sparse {
@@ -87,7 +90,9 @@ impl Document<'_> {
             let replacements = Elements { bytes, stride, component, normalized };
             for i in 0..n as usize {
                 let target = targets.number(i, 0) as usize;
-                *values.get_mut(target).ok_or_else(|| format!("{what} replaces element {target} of {}; export the file again", accessor.count.0))? =
+                *values
+                    .get_mut(target)
+                    .ok_or_else(|| format!("{what} replaces element {target} of {}; export the file again", accessor.count.0))? =
                     get(&replacements, i);
             }
         }

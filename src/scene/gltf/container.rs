@@ -53,7 +53,11 @@ impl<'a> Document<'a> {
             (None, _) => return Err("it names no file and the container holds no data for it; export the file again".into()),
         };
         if (bytes.len() as u64) < buffer.byte_length.0 {
-            return Err(format!("it has {} bytes of the {} declared; the file is cut short, copy or export it again", bytes.len(), buffer.byte_length.0));
+            return Err(format!(
+                "it has {} bytes of the {} declared; the file is cut short, copy or export it again",
+                bytes.len(),
+                buffer.byte_length.0
+            ));
         }
         Ok(bytes)
     }

@@ -26,7 +26,10 @@ const GREY: Vec3 = Vec3::splat(0.5);
 enum Model {
     Lambert(Vec3),
     Mirror(Vec3),
-    Dielectric { tint: Vec3, ior: f32 },
+    Dielectric {
+        tint: Vec3,
+        ior: f32,
+    },
     /// No model: why.
     Unknown(String),
 }

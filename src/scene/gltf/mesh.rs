@@ -8,7 +8,8 @@ use super::nodes::{Placed, label};
 use crate::math::{DMat3, Vec3};
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::hash_map::{Entry, HashMap};
+use std::collections::HashSet;
 
 /// More triangles than this are refused: they would not fit in memory.
 const MAX_TRIANGLES: usize = 1 << 26;
@@ -20,14 +21,15 @@ struct Shape {
     triangles: Vec<[u32; 3]>,
 }
 
-/// Reads all meshes that the placed nodes show; what is skipped is counted in `ignored`.
+/// Reads all meshes that the placed nodes show; what is to be told of them goes to `notes`.
 pub fn triangles(
     document: &Document,
     placed: &[Placed],
     materials: &mut Materials,
-    ignored: &mut BTreeMap<&'static str, usize>,
+    notes: &mut Vec<String>,
 ) -> Result<Vec<PartTriangle>, SceneError> {
     let mut list = Vec::new();
+    let mut skipped = 0;
     let mut shapes: HashMap<(usize, usize), (Shape, u32)> = HashMap::new();
     for place in placed {
         let Some(index) = place.node.mesh.map(|mesh| mesh.value()) else { continue };
@@ -35,22 +37,32 @@ pub fn triangles(
             return Err(document.error(place.label(), format!("it shows mesh {index}, which does not exist; export the file again")));
         };
         for (number, primitive) in mesh.primitives.iter().enumerate() {
-            let fail = |reason: String| document.error(format!("{}, primitive {number}", label("mesh", index, mesh.name.as_deref())), reason);
+            let fail =
+                |reason: String| document.error(format!("{}, primitive {number}", label("mesh", index, mesh.name.as_deref())), reason);
             if !matches!(primitive.mode, Checked::Valid(Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) {
-                *ignored.entry("points or lines").or_default() += 1;
+                skipped += 1;
                 continue;
             }
-            if !shapes.contains_key(&(index, number)) {
-                let shape = Shape::read(document, primitive).map_err(fail)?;
-                let material = materials.index(primitive.material.map(|m| m.value()), || shape.is_closed())?;
-                shapes.insert((index, number), (shape, material));
-            }
-            let Some((shape, material)) = shapes.get(&(index, number)) else { continue };
+            let (shape, material) = match shapes.entry((index, number)) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(new) => {
+                    let shape = Shape::read(document, primitive).map_err(fail)?;
+                    if let Some(rounding) = shape.lost_precision() {
+                        let name = label("mesh", index, mesh.name.as_deref());
+                        notes.push(format!("The positions of {name} are so far from its zero that the file rounds them to {rounding:.0e} m."));
+                    }
+                    let material = materials.index(primitive.material.map(|m| m.value()), || shape.is_closed())?;
+                    new.insert((shape, material))
+                }
+            };
             if list.len() + shape.triangles.len() > MAX_TRIANGLES {
                 return Err(fail(format!("the scene has more than {MAX_TRIANGLES} triangles; simplify it")));
             }
             shape.place(place, *material, &mut list);
         }
+    }
+    if skipped > 0 {
+        notes.push(format!("Ignored: primitives of points or lines ({skipped})."));
     }
     Ok(list)
 }
@@ -60,7 +72,8 @@ impl Shape {
         let attribute = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).map(|accessor| accessor.value());
         let positions = attribute(Semantic::Positions).ok_or("it has no positions; export the file again")?;
         let positions = document.read_vec3(positions).map_err(|reason| format!("positions: {reason}"))?;
-        let normals = attribute(Semantic::Normals).map(|index| document.read_vec3(index)).transpose().map_err(|r| format!("normals: {r}"))?;
+        let normals =
+            attribute(Semantic::Normals).map(|index| document.read_vec3(index)).transpose().map_err(|r| format!("normals: {r}"))?;
         if let Some(normals) = normals.as_ref().filter(|n| n.len() != positions.len()) {
             return Err(format!("it has {} normals for {} positions; export the file again", normals.len(), positions.len()));
         }
@@ -79,7 +92,8 @@ impl Shape {
         let matrix = DMat3::from_mat4(place.world_from_node);
         let mirrored = matrix.determinant() < 0.0;
         // det · M⁻ᵀ, which exists for flat transforms too; its sign is settled when normals go to the geometric side.
-        let cofactor = DMat3::from_cols(matrix.y_axis.cross(matrix.z_axis), matrix.z_axis.cross(matrix.x_axis), matrix.x_axis.cross(matrix.y_axis));
+        let cofactor =
+            DMat3::from_cols(matrix.y_axis.cross(matrix.z_axis), matrix.z_axis.cross(matrix.x_axis), matrix.x_axis.cross(matrix.y_axis));
         let world: Vec<_> = self.positions.iter().map(|p| place.world_from_node.transform_point3(p.as_dvec3())).collect();
         // Tiny scales square to less than f32 holds: normalise before rounding.
         let normal = |n: &Vec3| (cofactor * n.as_dvec3()).normalize_or_zero().as_vec3();
@@ -91,15 +105,26 @@ impl Shape {
         }));
     }
 
+    /// The rounding of the file's coordinates, m, if it shows: more than 10⁻⁴ of the extent.
+    fn lost_precision(&self) -> Option<f32> {
+        let (min, max) = self.positions.iter().fold((Vec3::MAX, Vec3::MIN), |(min, max), p| (min.min(*p), max.max(*p)));
+        let rounding = 0.5 * f32::EPSILON * min.abs().max(max.abs()).max_element();
+        (rounding > 1e-4 * (max - min).max_element()).then_some(rounding)
+    }
+
     /// Does the primitive enclose a volume: is every edge shared by exactly two oppositely oriented triangles, once
     /// vertices at the same position are one?
     fn is_closed(&self) -> bool {
         let mut welded = HashMap::new();
-        let weld: Vec<usize> = self.positions.iter().map(|p| {
-            let next = welded.len();
-            // + 0 makes −0 and 0 the same position.
-            *welded.entry((*p + Vec3::ZERO).to_array().map(f32::to_bits)).or_insert(next)
-        }).collect();
+        let weld: Vec<usize> = self
+            .positions
+            .iter()
+            .map(|p| {
+                let next = welded.len();
+                // + 0 makes −0 and 0 the same position.
+                *welded.entry((*p + Vec3::ZERO).to_array().map(f32::to_bits)).or_insert(next)
+            })
+            .collect();
         let mut edges = HashSet::new();
         for corners in &self.triangles {
             let [a, b, c] = corners.map(|i| weld[i as usize]);

@@ -38,7 +38,10 @@ pub fn placed<'a>(document: &'a Document) -> Result<Vec<Placed<'a>>, SceneError>
     let mut stack: Vec<(usize, DMat4)> = roots(document)?.into_iter().rev().map(|i| (i, DMat4::IDENTITY)).collect();
     while let Some((index, world_from_parent)) = stack.pop() {
         let Some(node) = nodes.get(index) else {
-            return Err(document.error(format!("node {index}"), format!("it is referred to, but there are only {} nodes; export the file again", nodes.len())));
+            return Err(document.error(
+                format!("node {index}"),
+                format!("it is referred to, but there are only {} nodes; export the file again", nodes.len()),
+            ));
         };
         let name = || label("node", index, node.name.as_deref());
         if std::mem::replace(&mut seen[index], true) {
@@ -69,7 +72,10 @@ fn roots(document: &Document) -> Result<Vec<usize>, SceneError> {
             }
             Ok((0..root.nodes.len()).filter(|&i| !is_child[i]).collect())
         }
-        None => Err(document.error(format!("scene {index}"), format!("it is the default, but there are only {} scenes; export the file again", root.scenes.len()))),
+        None => Err(document.error(
+            format!("scene {index}"),
+            format!("it is the default, but there are only {} scenes; export the file again", root.scenes.len()),
+        )),
     }
 }
 

@@ -1,0 +1,273 @@
+//! The hierarchy against brute force, at every scale, and its watertightness.
+
+use super::*;
+use crate::math::Vec2;
+use crate::rng::SampleId;
+use crate::scene::{NONE, builtin};
+
+/// Numbers in [0, 1)⁴, the i-th four of a test's own stream.
+fn random(stream: u32, i: u32) -> [f32; 4] {
+    SampleId { x: 0, y: 0, sample: i, seed: stream }.numbers(0)
+}
+
+/// A point of the cube [−1, 1]³.
+fn in_cube(stream: u32, i: u32) -> Vec3 {
+    let [x, y, z, _] = random(stream, i);
+    Vec3::new(x, y, z) * 2.0 - 1.0
+}
+
+fn triangle(p0: Vec3, p1: Vec3, p2: Vec3) -> Triangle {
+    Triangle { p0, material: 0, p1, light: NONE, p2, normals: NONE }
+}
+
+/// The nearest hit by trying every triangle.
+fn brute_force(triangles: &[Triangle], ray: &Ray) -> Option<Hit> {
+    let prepared = PreparedRay::new(ray.origin, ray.direction);
+    let mut best: Option<Hit> = None;
+    for (index, triangle) in triangles.iter().enumerate() {
+        best = prepared.hit(triangle, index as u32, best.map_or(f32::MAX, |hit| hit.distance)).or(best);
+    }
+    best
+}
+
+/// Every leaf's triangles lie in the boxes above it, and every triangle in exactly one leaf.
+fn check_tree(bvh: &Bvh, triangles: &[Triangle]) {
+    let mut seen = vec![0; triangles.len()];
+    let mut stack = vec![(0usize, bvh.nodes[0])];
+    while let Some((index, above)) = stack.pop() {
+        let node = bvh.nodes[index];
+        assert!(node.min.cmpge(above.min).all() && node.max.cmple(above.max).all());
+        for i in node.first..node.first + node.count {
+            let t = &triangles[i as usize];
+            assert!([t.p0, t.p1, t.p2].iter().all(|p| p.cmpge(node.min).all() && p.cmple(node.max).all()));
+            seen[i as usize] += 1;
+        }
+        if node.count == 0 {
+            stack.extend([(node.first as usize, node), (node.first as usize + 1, node)]);
+        }
+    }
+    assert!(seen.iter().all(|&n| n == 1));
+    assert!(bvh.depth as usize <= STACK_SIZE);
+}
+
+/// Rays of all kinds through a scene: at random, along axes, along diagonals, nearly along axes, from vertices' planes.
+fn rays(triangles: &[Triangle], stream: u32, count: u32, scale: f32) -> impl Iterator<Item = Ray> {
+    let tiny = [0.0, -0.0, 1e-45, -1e-40, 1e-30, -1e-20, 1e-8];
+    (0..count).map(move |i| {
+        let t = &triangles[(random(stream, i)[3] * triangles.len() as f32) as usize];
+        let mut direction = in_cube(stream + 1, i);
+        if i % 4 > 0 {
+            let axis = (i / 4) as usize % 3;
+            direction[axis] = tiny[i as usize % 7];
+            if i % 4 > 1 {
+                direction[(axis + 1) % 3] = tiny[i as usize % 5];
+            }
+        }
+        let target = if i % 3 == 0 {
+            (t.p0 + t.p1 + t.p2) / 3.0
+        } else if i % 3 == 1 {
+            t.p0
+        } else {
+            t.p0.lerp(t.p1, 0.5)
+        };
+        let direction = direction.normalize();
+        Ray { origin: target - direction * (scale * random(stream + 2, i)[0]), direction }
+    })
+}
+
+/// Hits agree with brute force for all rays; how many there were.
+fn check_hits(triangles: &[Triangle], stream: u32, count: u32, scale: f32) -> u32 {
+    let mut own = triangles.to_vec();
+    let bvh = Bvh::build(&mut own);
+    check_tree(&bvh, &own);
+    let mut hits = 0;
+    for ray in rays(triangles, stream, count, scale) {
+        let (found, expected) = (bvh.closest_hit(&own, &ray), brute_force(&own, &ray));
+        assert_eq!(found.is_some(), expected.is_some(), "{ray:?} at scale {scale}");
+        // Where triangles cross or overlap, which is nearer is a matter of rounding.
+        let gap = found.zip(expected).map_or(0.0, |(f, e)| (f.distance - e.distance).abs());
+        assert!(gap <= 2e-5 * scale, "{ray:?} at scale {scale}: {found:?} {expected:?}");
+        let segment = Segment { from: ray.origin, to: ray.origin + ray.direction * (scale * random(stream + 3, hits)[0]) };
+        assert_eq!(bvh.any_hit(&own, &segment), bvh.closest_hit_on_segment(&own, &segment).is_some(), "{segment:?}");
+        hits += u32::from(found.is_some());
+    }
+    hits
+}
+
+#[test]
+fn hits_equal_brute_force_at_all_scales_and_offsets() {
+    let mut hits = 0;
+    for round in 0..60 {
+        let scale = 10f32.powi(round as i32 % 10 - 3);
+        let offset = if round % 3 == 0 { in_cube(99, round) * (scale * 1000.0) } else { Vec3::ZERO };
+        let size = if round % 2 == 0 { 0.1 } else { 1.0 };
+        let triangles: Vec<_> = (0..1 + round * round / 8)
+            .map(|i| {
+                let centre = in_cube(10 + round, 4 * i);
+                let corner = |j| (centre + in_cube(10 + round, 4 * i + j) * size) * scale + offset;
+                triangle(corner(1), corner(2), corner(3))
+            })
+            .collect();
+        hits += check_hits(&triangles, 1000 + 4 * round, 3000, scale * 3.0);
+    }
+    assert!(hits > 60_000, "{hits}");
+}
+
+#[test]
+fn flat_grids_and_boxes_in_the_axes_planes() {
+    // Faces in the planes of the boxes, rays inside those planes and along them.
+    for scale in [1e-3f32, 1.0, 1e6] {
+        let mut triangles = Vec::new();
+        for i in 0..6u32 {
+            for j in 0..6u32 {
+                let at = |x: u32, y: u32| Vec3::new(x as f32 / 3.0 - 1.0, 0.0, y as f32 / 3.0 - 1.0) * scale;
+                triangles.push(triangle(at(i, j), at(i + 1, j), at(i + 1, j + 1)));
+                triangles.push(triangle(at(i, j), at(i + 1, j + 1), at(i, j + 1)));
+                let up = Vec3::Y * scale;
+                triangles.push(triangle(at(i, j), at(i, j) + up, at(i + 1, j)));
+            }
+        }
+        assert!(check_hits(&triangles, 7, 20_000, scale * 2.0) > 10_000);
+    }
+}
+
+#[test]
+fn slivers() {
+    let needle = |i| {
+        let (p, d) = (in_cube(5, 2 * i), in_cube(5, 2 * i + 1));
+        triangle(p, p + d, p + d * 0.5 + in_cube(6, i) * 1e-6)
+    };
+    check_hits(&(0..500).map(needle).collect::<Vec<_>>(), 8, 20_000, 2.0);
+}
+
+#[test]
+fn degenerate_input_builds() {
+    let one = triangle(Vec3::ZERO, Vec3::X, Vec3::Y);
+    for count in [1, 2, 3, 5, 1000] {
+        assert!(check_hits(&vec![one; count], 11, 2000, 2.0) > 100);
+    }
+    let row = (0..300).map(|i| triangle(Vec3::ZERO, Vec3::X * (i + 1) as f32, Vec3::Y)).collect::<Vec<_>>();
+    check_hits(&row, 12, 2000, 300.0);
+    let shrinking = (0..120).map(|i| 2f32.powi(-i)).map(|s| triangle(Vec3::ZERO, Vec3::X * s, Vec3::Y * s)).collect::<Vec<_>>();
+    check_hits(&shrinking, 13, 2000, 1.0);
+    let points = vec![triangle(Vec3::ONE, Vec3::ONE, Vec3::ONE); 100];
+    assert_eq!(check_hits(&points, 14, 2000, 1.0), 0);
+    assert!(Bvh::build(&mut Vec::new()).closest_hit(&[], &Ray { origin: Vec3::ZERO, direction: Vec3::X }).is_none());
+}
+
+#[test]
+fn a_segment_without_length_meets_nothing() {
+    let mut triangles = vec![triangle(Vec3::ZERO, Vec3::X, Vec3::Y)];
+    let bvh = Bvh::build(&mut triangles);
+    for p in [Vec3::ZERO, Vec3::new(0.25, 0.25, 0.0), Vec3::ONE] {
+        assert!(!bvh.any_hit(&triangles, &Segment { from: p, to: p }));
+    }
+}
+
+#[test]
+fn the_balanced_tree_is_a_tree_and_shallow() {
+    for count in [1u32, 6, 7, 13, 1000, 4097] {
+        let make = |i| triangle(in_cube(1, 3 * i), in_cube(1, 3 * i + 1), in_cube(1, 3 * i + 2));
+        for triangles in [(0..count).map(make).collect::<Vec<_>>(), vec![make(0); count as usize]] {
+            let (nodes, order) = by_halves(&triangles);
+            let ordered: Vec<_> = order.iter().map(|&i| triangles[i as usize]).collect();
+            let bvh = Bvh { depth: depth_of(&nodes), nodes };
+            check_tree(&bvh, &ordered);
+            assert!(bvh.depth <= 2 + count.ilog2());
+        }
+    }
+}
+
+#[test]
+fn no_ray_escapes_a_closed_sphere() {
+    // 10⁶ rays from inside at the vertices and the edges, where triangles meet.
+    let (stacks, slices) = (24u32, 32u32);
+    let at = |stack: u32, slice: u32| {
+        let (sin_t, cos_t) = (std::f32::consts::PI * stack as f32 / stacks as f32).sin_cos();
+        let (sin_p, cos_p) = (std::f32::consts::TAU * (slice % slices) as f32 / slices as f32).sin_cos();
+        // Both poles are single points.
+        if stack.is_multiple_of(stacks) { Vec3::new(0.0, cos_t, 0.0) } else { Vec3::new(sin_t * cos_p, cos_t, sin_t * sin_p) }
+    };
+    for (scale, offset) in [(1.0, Vec3::ZERO), (1e-3, Vec3::ZERO), (1e6, Vec3::ZERO), (1.0, Vec3::new(1000.0, -500.0, 250.0))] {
+        let mut triangles = Vec::new();
+        for (i, j) in (0..stacks).flat_map(|i| (0..slices).map(move |j| (i, j))) {
+            let [a, b, c, d] = [at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)].map(|p| p * scale + offset);
+            triangles.extend([triangle(a, b, c), triangle(a, c, d)].into_iter().filter(|t| t.p0 != t.p1 && t.p1 != t.p2));
+        }
+        let bvh = Bvh::build(&mut triangles);
+        for i in 0..250_000 {
+            let origin = in_cube(21, i) * (0.5 * scale) + offset;
+            let direction = (edge_point(&triangles, i) - origin).normalize();
+            assert!(bvh.closest_hit(&triangles, &Ray { origin, direction }).is_some(), "ray {i} escapes at scale {scale}");
+        }
+    }
+}
+
+/// A vertex, or a point on an edge, of the i-th or so triangle.
+fn edge_point(triangles: &[Triangle], i: u32) -> Vec3 {
+    let [pick, along, _, _] = random(22, i);
+    let t = &triangles[(pick * triangles.len() as f32) as usize];
+    let (a, b) = [(t.p0, t.p1), (t.p1, t.p2), (t.p2, t.p0)][i as usize % 3];
+    if i.is_multiple_of(2) { a } else { a.lerp(b, along) }
+}
+
+#[test]
+fn no_ray_escapes_the_cornell_box() {
+    let scene = builtin::open("cornell").unwrap();
+    let half = scene.origin.as_vec3();
+    let mut tried = 0;
+    for i in 0..3_000_000 {
+        let target = edge_point(&scene.triangles, i);
+        // At the walls, but not at the rim of the open front.
+        let on_wall = target.x.abs() > half.x - 1e-6 || target.y.abs() > half.y - 1e-6 || target.z > half.z - 1e-6;
+        if !on_wall || target.z < 0.01 - half.z {
+            continue;
+        }
+        let origin = in_cube(31, i) * half * 0.95;
+        let direction = (target - origin).normalize();
+        assert!(scene.bvh.closest_hit(&scene.triangles, &Ray { origin, direction }).is_some(), "ray {i} escapes");
+        tried += 1;
+    }
+    assert!(tried > 1_000_000, "{tried}");
+}
+
+/// Mray/s of one core: `cargo test --release --lib bvh -- --ignored --nocapture`.
+#[test]
+#[ignore = "a measurement"]
+fn throughput() {
+    use crate::math::{Frame, offset_ray_origin, sample_cosine_hemisphere};
+    for name in ["cornell", "cornell-spheres"] {
+        let scene = builtin::open(name).unwrap();
+        let (mut rays, mut segments) = (Vec::new(), Vec::new());
+        let start = Ray { origin: scene.cameras[0].position, direction: scene.cameras[0].axis };
+        let mut ray = start;
+        for i in 0..2_000_000 {
+            let u = random(41, i);
+            let Some(p) = scene.intersect(&ray) else {
+                let spread = Vec3::new(u[0] - 0.5, u[1] - 0.5, 0.0) * 0.7;
+                ray = Ray { direction: (start.direction + spread).normalize(), ..start };
+                continue;
+            };
+            if let Some((_, q)) = scene.lights.sample_point(&scene, [u[2], u[3], u[0]]) {
+                let w = (q.position - p.position).normalize();
+                let (from, to) = (offset_ray_origin(p.position, p.error, p.n_g, w), offset_ray_origin(q.position, q.error, q.n_g, -w));
+                segments.push(Segment { from, to });
+            }
+            let facing = if p.n_g.dot(ray.direction) < 0.0 { p.n_g } else { -p.n_g };
+            let direction = Frame::around(facing).to_world(sample_cosine_hemisphere(Vec2::new(u[0], u[1])));
+            ray = Ray { origin: offset_ray_origin(p.position, p.error, p.n_g, direction), direction };
+            rays.push(ray);
+        }
+        let measure = |count: usize, run: &dyn Fn() -> usize| {
+            let seconds = (0..5).map(|_| {
+                let start = std::time::Instant::now();
+                std::hint::black_box(run());
+                start.elapsed().as_secs_f64()
+            });
+            count as f64 * 1e-6 / seconds.fold(f64::MAX, f64::min)
+        };
+        let closest = measure(rays.len(), &|| rays.iter().filter(|r| scene.bvh.closest_hit(&scene.triangles, r).is_some()).count());
+        let any = measure(segments.len(), &|| segments.iter().filter(|s| scene.bvh.any_hit(&scene.triangles, s)).count());
+        println!("{name}: {closest:.1} Mray/s closest hit, {any:.1} Mray/s any hit, one core");
+    }
+}
