@@ -131,13 +131,10 @@ pub fn geometry_term(n: Vec3, n_other: Vec3, w: Vec3, distance_squared: f32) -> 
 }
 
 /// Moves `p` off the surface with normal `n`, to the side `w` leaves on, by the bound `error` (metres, per axis) on where
-/// the exact point may lie (Pharr, Jakob, Humphreys: *PBRT*, 6.8.6).
+/// the exact point may lie (Pharr, Jakob, Humphreys: *PBRT*, 6.8.6). The bound has room for the rounding of this very sum.
 #[inline]
 pub fn offset_ray_origin(p: Vec3, error: f32, n: Vec3, w: Vec3) -> Vec3 {
-    let n = if n.dot(w) < 0.0 { -n } else { n };
-    let q = p + n * ((n.x.abs() + n.y.abs() + n.z.abs()) * error);
-    let away = |q: f32, n: f32| if n > 0.0 { q.next_up() } else if n < 0.0 { q.next_down() } else { q };
-    Vec3::new(away(q.x, n.x), away(q.y, n.y), away(q.z, n.z))
+    p + n * ((n.x.abs() + n.y.abs() + n.z.abs()) * error).copysign(n.dot(w))
 }
 
 /// The largest of the three colour channels.

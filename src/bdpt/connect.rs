@@ -103,6 +103,8 @@ pub struct Sample {
     pub fresh: Option<Vertex>,
     /// The path joined last.
     pub path: FullPath,
+    /// The connection edge looked at last.
+    edge: Edge,
     /// Closest-hit rays so far.
     pub rays_closest: u64,
     /// Visibility rays so far.
@@ -123,7 +125,22 @@ impl Sample {
         }
     }
 
-    /// Evaluates strategy (s,t) of the sample; after `Ok`, and after `Blocked`, [`Sample::path`] is its path.
+    /// A sample of two given subpaths.
+    pub fn of(id: SampleId, raster: Vec2, light: Subpath, eye: Subpath) -> Self {
+        Self { id, raster, light, eye, ..Self::default() }
+    }
+
+    /// After [`Reason::Blocked`]: joins the path all the same, as if the edge were free.
+    pub fn join_blocked(&mut self, context: &Context, strategy: Strategy) {
+        let (s, t) = (strategy.s as usize, strategy.t as usize);
+        let y = match &self.fresh {
+            Some(fresh) => std::slice::from_ref(fresh),
+            None => &self.light.vertices[..s],
+        };
+        self.path.join(context, y, &self.eye.vertices[..t], &self.edge);
+    }
+
+    /// Evaluates strategy (s,t) of the sample; after `Ok`, [`Sample::path`] is its path.
     #[inline]
     pub fn evaluate(&mut self, context: &Context, strategy: Strategy) -> Result<Contribution, Reason> {
         let (s, t) = (strategy.s as usize, strategy.t as usize);
@@ -195,11 +212,12 @@ impl Sample {
         let connection_term = f_a * f_b * geometry;
 
         // Its visibility, and the path's weight.
-        self.path.join(context, y, z, &Edge { w, geometry });
+        self.edge = Edge { w, geometry };
         self.rays_shadow += 1;
         if !context.scene.visible(&segment(a, b, w)) {
             return Err(Reason::Blocked);
         }
+        self.path.join(context, y, z, &self.edge);
         let pixel = if t == 1 { context.view.pixel(raster).ok_or(Reason::OutsideTheFilm)? } else { [self.id.x, self.id.y] };
         Ok(Contribution {
             raster,

@@ -57,14 +57,26 @@ impl FullPath {
         let (s, t) = (y.len(), z.len());
         self.k = s + t - 1;
         let k = self.k;
-        // Away from the connection, both densities are what the walks recorded.
+        // Away from the connection, both densities are what the walks recorded. A Dirac at x_i rules out the strategies that
+        // would connect there, i and i + 1; the ends of the connection are none here, whatever their walk sampled later.
+        self.samplable[..=k].fill(true);
+        self.samplable[k + 1] = false;
         for (i, v) in y.iter().enumerate() {
             self.p_light[i] = v.pdf_fwd_area;
             self.p_eye[i] = v.pdf_rev_area;
+            if v.is_delta() && i + 1 < s {
+                self.samplable[i] = false;
+                self.samplable[i + 1] = false;
+            }
         }
         for (j, v) in z.iter().enumerate() {
-            self.p_eye[k - j] = v.pdf_fwd_area;
-            self.p_light[k - j] = v.pdf_rev_area;
+            let i = k - j;
+            self.p_eye[i] = v.pdf_fwd_area;
+            self.p_light[i] = v.pdf_rev_area;
+            if v.is_delta() && j + 1 < t {
+                self.samplable[i] = false;
+                self.samplable[i + 1] = false;
+            }
         }
         // Around it, four densities depend on the connection.
         if s == 0 {
@@ -80,7 +92,11 @@ impl FullPath {
                 self.p_eye[s - 2] = scatter_psa(context, a, edge.w, TransportMode::Radiance) * a.geometry_prev;
             }
         }
-        self.mark_samplable(context, y, z);
+        // A pinhole cannot be hit, so s = k + 1 is never samplable.
+        let first = Strategy::new(0, k as u32 + 1).index();
+        for i in 0..=k + 1 {
+            self.active[i] = self.samplable[i] && context.settings.strategies.contains_index(first + i);
+        }
     }
 
     /// s = 0: x₀ = z_{t−1} lies on a light, which could have chosen it and emitted towards z_{t−2}.
@@ -90,24 +106,6 @@ impl FullPath {
         let light = &context.scene.lights.list[x0.light as usize];
         self.p_light[0] = light.pdf_area();
         self.p_light[1] = light.pdf_direction_psa(x0.n_g, x0.w_prev) * x0.geometry_prev;
-    }
-
-    /// Strategy s joins x_{s−1} to x_s: neither may have scattered by a Dirac. A pinhole cannot be hit (s = k + 1).
-    #[inline]
-    fn mark_samplable(&mut self, context: &Context, y: &[Vertex], z: &[Vertex]) {
-        let (s, t, k) = (y.len(), z.len(), self.k);
-        let strategies = &context.settings.strategies;
-        // The ends of the connection did scatter along it, so they are no Diracs here whatever their walk sampled later.
-        let delta = |i: usize| if i < s { i + 1 < s && y[i].is_delta() } else { let j = k - i; j + 1 < t && z[j].is_delta() };
-        let mut before = false;
-        for i in 0..=k {
-            let here = delta(i);
-            self.samplable[i] = !before && !here;
-            self.active[i] = self.samplable[i] && strategies.contains(Strategy::new(i as u32, (k + 1 - i) as u32));
-            before = here;
-        }
-        self.samplable[k + 1] = false;
-        self.active[k + 1] = false;
     }
 }
 

@@ -227,6 +227,9 @@ fn strategy_record(context: &Context, sample: &mut Sample, strategy: Strategy) -
         splits: Vec::new(),
     };
     let joined = matches!(outcome, Ok(_) | Err(Reason::Blocked));
+    if let Err(Reason::Blocked) = outcome {
+        sample.join_blocked(context, strategy);
+    }
     match outcome {
         Ok(contribution) => record.carry(&contribution),
         Err(reason) => {

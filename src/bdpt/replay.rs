@@ -47,13 +47,8 @@ pub fn replay(context: &Context, x: &[Vertex], s: usize) -> Result<Replayed, Rep
     let (at_lens, _) = direction_between(x[x.len() - 1].position, x[x.len() - 2].position);
     let raster = context.view.project(at_lens).unwrap_or(Vec2::ZERO);
     let id = SampleId { x: raster.x as u32, y: raster.y as u32, ..SampleId::default() };
-    let mut sample = Sample {
-        id,
-        raster,
-        light: Subpath { vertices: light, end: End::MaxEdges },
-        eye: Subpath { vertices: eye, end: End::MaxEdges },
-        ..Sample::default()
-    };
+    let ends = |vertices| Subpath { vertices, end: End::MaxEdges };
+    let mut sample = Sample::of(id, raster, ends(light), ends(eye));
     let contribution = sample.evaluate(&context, Strategy::new(s as u32, t as u32)).map_err(ReplayError::Connection)?;
     Ok(Replayed { contribution, path: sample.path, ln_p })
 }

@@ -120,7 +120,12 @@ impl StrategySet {
     /// Is the strategy in the set?
     #[inline]
     pub fn contains(&self, strategy: Strategy) -> bool {
-        let index = strategy.index();
+        self.contains_index(strategy.index())
+    }
+
+    /// Is the strategy of this [`Strategy::index`] in the set?
+    #[inline]
+    pub fn contains_index(&self, index: usize) -> bool {
         self.0[index / 64] >> (index % 64) & 1 == 1
     }
 

@@ -217,7 +217,7 @@ impl Scene {
     /// The surface point at barycentric coordinates (b1, b2) of a triangle.
     #[inline]
     pub fn point_on_triangle(&self, triangle: u32, b: Vec2) -> SurfacePoint {
-        const GAMMA_7: f32 = 7.0 * 0.5 * f32::EPSILON / (1.0 - 7.0 * 0.5 * f32::EPSILON);
+        const GAMMA_9: f32 = 9.0 * 0.5 * f32::EPSILON / (1.0 - 9.0 * 0.5 * f32::EPSILON);
         let tri = &self.triangles[triangle as usize];
         let b0 = 1.0 - b.x - b.y;
         let (q0, q1, q2) = (tri.p0 * b0, tri.p1 * b.x, tri.p2 * b.y);
@@ -232,7 +232,7 @@ impl Scene {
             position: q0 + q1 + q2,
             n_g,
             n_s,
-            error: GAMMA_7 * (q0.abs() + q1.abs() + q2.abs()).max_element(),
+            error: GAMMA_9 * (q0.abs() + q1.abs() + q2.abs()).max_element(),
             triangle,
             material: tri.material,
             light: tri.light,
