@@ -81,7 +81,10 @@ impl Job {
         if let Some(c) = self.crop {
             let fits = |start: u32, length: u32, side: u32| length > 0 && start < side && length <= side - start;
             if !fits(c.x, c.width, width) || !fits(c.y, c.height, height) {
-                return fail(format!("crop {},{},{},{}: must be a non-empty part of the {width}x{height} film", c.x, c.y, c.width, c.height));
+                return fail(format!(
+                    "crop {},{},{},{}: must be a non-empty part of the {width}x{height} film",
+                    c.x, c.y, c.width, c.height
+                ));
             }
         }
         let h = &self.settings.heuristic;
@@ -94,7 +97,9 @@ impl Job {
         let bytes = Film::bytes(self.size, self.plan().layers);
         if bytes > FILM_BUDGET {
             let (need, have) = (bytes >> 20, FILM_BUDGET >> 20);
-            return fail(format!("a {width}x{height} film with these layers takes {need} MiB, the budget is {have} MiB: choose a smaller size, fewer edges or no pyramid"));
+            return fail(format!(
+                "a {width}x{height} film with these layers takes {need} MiB, the budget is {have} MiB: choose a smaller size, fewer edges or no pyramid"
+            ));
         }
         Ok(())
     }

@@ -13,9 +13,13 @@
 //! ```
 
 pub mod bdpt;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod cli;
 pub mod engine;
 pub mod film;
 pub mod layout;
 pub mod math;
+pub mod report;
 pub mod rng;
 pub mod scene;
+pub mod ui;

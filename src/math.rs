@@ -32,11 +32,7 @@ impl Frame {
         let sign = 1.0f32.copysign(z.z);
         let a = -1.0 / (sign + z.z);
         let b = z.x * z.y * a;
-        Self {
-            x: Vec3::new(1.0 + sign * z.x * z.x * a, sign * b, -sign * z.x),
-            y: Vec3::new(b, sign + z.y * z.y * a, -z.y),
-            z,
-        }
+        Self { x: Vec3::new(1.0 + sign * z.x * z.x * a, sign * b, -sign * z.x), y: Vec3::new(b, sign + z.y * z.y * a, -z.y), z }
     }
 
     /// From local coordinates to the coordinates of the frame's axes.
@@ -71,11 +67,7 @@ pub fn sample_disk(u: Vec2) -> Vec2 {
         return Vec2::ZERO;
     }
     // The angle is (π/4)·(small/large), measured from the axis of the larger coordinate.
-    let (radius, turn) = if a.x.abs() > a.y.abs() {
-        (a.x, (a.y / a.x) * 0.125)
-    } else {
-        (a.y, 0.25 - (a.x / a.y) * 0.125)
-    };
+    let (radius, turn) = if a.x.abs() > a.y.abs() { (a.x, (a.y / a.x) * 0.125) } else { (a.y, 0.25 - (a.x / a.y) * 0.125) };
     let (sin, cos) = sin_cos_turn(turn - turn.floor());
     Vec2::new(cos, sin) * radius
 }

@@ -14,7 +14,7 @@
 //! | 256 + s | fresh lens end of (s, 1) | lens x, y |
 //! | 336 + s | rounding of the splat of (s, 1) and (s, 0) | one per colour channel |
 
-use crate::math::Vec2;
+use glam::Vec2;
 
 /// Block of the eye subpath's start.
 pub const BLOCK_EYE_START: u32 = 0;
@@ -94,7 +94,7 @@ mod tests {
     fn blocks_do_not_overlap_up_to_64_edges() {
         let starts = [BLOCK_LIGHT_VERTEX, BLOCK_EYE_VERTEX, BLOCK_FRESH_LIGHT, BLOCK_FRESH_LENS, BLOCK_SPLAT];
         assert!(starts.windows(2).all(|w| w[1] - w[0] >= 66));
-        assert!(BLOCK_LIGHT_DIRECTION < BLOCK_LIGHT_VERTEX);
+        const { assert!(BLOCK_LIGHT_DIRECTION < BLOCK_LIGHT_VERTEX) };
     }
 
     #[test]

@@ -57,14 +57,22 @@ impl Reason {
         match self {
             Self::LightSubpathTooShort => "the light subpath ended before it had s vertices",
             Self::EyeSubpathTooShort => "the eye subpath ended before it had t vertices",
-            Self::LightVertexIsDirac => "the last light vertex is a mirror or glass: it scatters into single directions, none of them along the edge",
-            Self::EyeVertexIsDirac => "the last eye vertex is a mirror or glass: it scatters into single directions, none of them along the edge",
+            Self::LightVertexIsDirac => {
+                "the last light vertex is a mirror or glass: it scatters into single directions, none of them along the edge"
+            }
+            Self::EyeVertexIsDirac => {
+                "the last eye vertex is a mirror or glass: it scatters into single directions, none of them along the edge"
+            }
             Self::NotOnALight => "the eye subpath's last vertex does not lie on a light",
             Self::BackOfTheLight => "the light does not shine to this side",
             Self::BehindTheCamera => "the light vertex lies behind the camera",
             Self::OutsideTheFilm => "the light vertex lies outside the picture",
-            Self::LightVertexScattersNothing => "the last light vertex scatters nothing along the edge: it leaves on the other side of the surface",
-            Self::EyeVertexScattersNothing => "the last eye vertex scatters nothing along the edge: it arrives on the other side of the surface",
+            Self::LightVertexScattersNothing => {
+                "the last light vertex scatters nothing along the edge: it leaves on the other side of the surface"
+            }
+            Self::EyeVertexScattersNothing => {
+                "the last eye vertex scatters nothing along the edge: it arrives on the other side of the surface"
+            }
             Self::DegenerateEdge => "the ends of the edge coincide, or the edge lies in a surface's plane",
             Self::Blocked => "something stands between the ends of the edge",
             Self::NoLight => "the scene has no light",
@@ -204,7 +212,11 @@ impl Sample {
         let f_a = light_factor(context, a, s, w)?;
         let (f_b, raster) = match t {
             1 => lens_factor(context, -w).map(|(w_e, raster)| (Vec3::splat(w_e), raster))?,
-            _ => (surface_factor(context, b, -w, b.w_prev).map_err(|dirac| if dirac { Reason::EyeVertexIsDirac } else { Reason::EyeVertexScattersNothing })?, self.raster),
+            _ => (
+                surface_factor(context, b, -w, b.w_prev)
+                    .map_err(|dirac| if dirac { Reason::EyeVertexIsDirac } else { Reason::EyeVertexScattersNothing })?,
+                self.raster,
+            ),
         };
         if !(geometry > 0.0 && geometry.is_finite()) {
             return Err(Reason::DegenerateEdge);
@@ -241,7 +253,8 @@ fn light_factor(context: &Context, y: &Vertex, s: usize, w: Vec3) -> Result<Vec3
         let l_e_1 = context.scene.lights.list[y.light as usize].l_e_1(y.n_g, w);
         return if l_e_1 > 0.0 { Ok(Vec3::splat(l_e_1)) } else { Err(Reason::BackOfTheLight) };
     }
-    surface_factor(context, y, y.w_prev, w).map_err(|dirac| if dirac { Reason::LightVertexIsDirac } else { Reason::LightVertexScattersNothing })
+    surface_factor(context, y, y.w_prev, w)
+        .map_err(|dirac| if dirac { Reason::LightVertexIsDirac } else { Reason::LightVertexScattersNothing })
 }
 
 /// f̄(ω_L, ω_E) at a surface vertex; `Err(true)` if it is a Dirac, `Err(false)` if it is zero.

@@ -39,7 +39,13 @@ pub fn mis_weights_by_definition(path: &FullPath, active: &[bool], heuristic: &H
             HeuristicKind::Power => p.powf(f64::from(heuristic.beta)) * f64::from(u8::from(p > 0.0)),
             HeuristicKind::Balance => p,
             HeuristicKind::Max => f64::from(u8::from(p >= 1.0 - TIE)),
-            HeuristicKind::Cutoff => if p >= f64::from(heuristic.cutoff) { p } else { 0.0 },
+            HeuristicKind::Cutoff => {
+                if p >= f64::from(heuristic.cutoff) {
+                    p
+                } else {
+                    0.0
+                }
+            }
             HeuristicKind::Uniform => f64::from(u8::from(p > 0.0)),
         })
         .collect();

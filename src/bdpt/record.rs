@@ -192,7 +192,13 @@ fn vertex_record(scene: &Scene, v: &Vertex) -> VertexRecord {
         position: scene.in_file(v.position),
         n_g: v.n_g.to_array(),
         n_s: v.n_s.to_array(),
-        kind: if v.flags & ON_LENS != 0 { "lens" } else if v.flags & ON_LIGHT != 0 { "light" } else { "surface" },
+        kind: if v.flags & ON_LENS != 0 {
+            "lens"
+        } else if v.flags & ON_LIGHT != 0 {
+            "light"
+        } else {
+            "surface"
+        },
         material: on_surface.then(|| scene.material_names[v.material as usize].clone()),
         model: on_surface.then(|| scene.materials[v.material as usize].kind_name()),
         emitter: v.emits(),
@@ -237,7 +243,8 @@ fn strategy_record(context: &Context, sample: &mut Sample, strategy: Strategy) -
             record.reason_text = Some(reason.text().to_owned());
         }
     }
-    let too_short = matches!(record.reason, Some(Reason::LightSubpathTooShort | Reason::EyeSubpathTooShort | Reason::NoLight | Reason::Removed));
+    let too_short =
+        matches!(record.reason, Some(Reason::LightSubpathTooShort | Reason::EyeSubpathTooShort | Reason::NoLight | Reason::Removed));
     if !too_short {
         record.write_path(context, sample, joined);
     }

@@ -77,7 +77,16 @@ fn eye_walk(context: &Context, x: &[Vertex], t: usize) -> Result<Vec<Vertex>, Re
 
 /// A vertex with its geometry only: nothing of the walk that made it survives.
 fn bare(v: &Vertex, kind: u32) -> Vertex {
-    Vertex { flags: kind, alpha: Vec3::ZERO, w_prev: Vec3::ZERO, pdf_fwd_area: 0.0, pdf_rev_area: 0.0, survival: 1.0, geometry_prev: 0.0, ..*v }
+    Vertex {
+        flags: kind,
+        alpha: Vec3::ZERO,
+        w_prev: Vec3::ZERO,
+        pdf_fwd_area: 0.0,
+        pdf_rev_area: 0.0,
+        survival: 1.0,
+        geometry_prev: 0.0,
+        ..*v
+    }
 }
 
 /// The walk's recursions, with every direction forced to the next point.

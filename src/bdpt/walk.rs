@@ -109,7 +109,15 @@ impl Context<'_> {
 
     /// Continues a subpath from its last vertex.
     #[inline]
-    fn walk(&self, mut step: Step, mode: TransportMode, id: SampleId, max_vertices: usize, vertices: &mut Vec<Vertex>, rays: &mut u64) -> End {
+    fn walk(
+        &self,
+        mut step: Step,
+        mode: TransportMode,
+        id: SampleId,
+        max_vertices: usize,
+        vertices: &mut Vec<Vertex>,
+        rays: &mut u64,
+    ) -> End {
         let first_block = if mode == TransportMode::Importance { BLOCK_LIGHT_VERTEX } else { BLOCK_EYE_VERTEX };
         while vertices.len() < max_vertices {
             let last = vertices.len() - 1;
@@ -158,6 +166,11 @@ fn arrive(from: &Vertex, point: &SurfacePoint, step: &Step) -> Option<Vertex> {
     let (w, distance_squared) = direction_between(from.position, point.position);
     let geometry = geometry_term(from.n_g, point.n_g, w, distance_squared);
     let pdf = step.pdf_fwd_psa * geometry;
-    (pdf > 0.0 && pdf.is_finite())
-        .then(|| Vertex { alpha: step.alpha, w_prev: -w, pdf_fwd_area: pdf, geometry_prev: geometry, ..Vertex::on(point, ON_SURFACE) })
+    (pdf > 0.0 && pdf.is_finite()).then(|| Vertex {
+        alpha: step.alpha,
+        w_prev: -w,
+        pdf_fwd_area: pdf,
+        geometry_prev: geometry,
+        ..Vertex::on(point, ON_SURFACE)
+    })
 }

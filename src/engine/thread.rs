@@ -49,7 +49,7 @@ pub struct Frame {
 
 enum Command {
     Restart(Box<Session>, u64),
-    Hide(StrategySet),
+    Hide(Box<StrategySet>),
     Pause(bool),
     Stop,
 }
@@ -72,7 +72,8 @@ impl Engine {
         let session = Session::new(job.clone())?;
         let (commands, inbox) = channel();
         let frame = Arc::new(Mutex::new(None));
-        let worker = Worker { session, generation: 0, hidden: StrategySet::NONE, paused: false, frame: Arc::clone(&frame), wake: Box::new(wake) };
+        let worker =
+            Worker { session, generation: 0, hidden: StrategySet::NONE, paused: false, frame: Arc::clone(&frame), wake: Box::new(wake) };
         let thread = std::thread::Builder::new()
             .name("render".to_owned())
             .spawn(move || worker.run(&inbox))
@@ -93,7 +94,7 @@ impl Engine {
     /// Leaves strategies out of the sum; their weights stay as they are.
     pub fn set_hidden(&mut self, hidden: StrategySet) {
         self.hidden = hidden;
-        self.send(Command::Hide(hidden));
+        self.send(Command::Hide(Box::new(hidden)));
     }
 
     /// The strategies left out of the sum.
@@ -187,7 +188,7 @@ impl Worker {
                 // The first look at something new should not be empty.
                 self.session.step(SLICE);
             }
-            Command::Hide(hidden) => self.hidden = hidden,
+            Command::Hide(hidden) => self.hidden = *hidden,
             Command::Pause(paused) => self.paused = paused,
             Command::Stop => return false,
         }
@@ -240,17 +241,26 @@ fn make_frame(session: &Session, generation: u64, hidden: StrategySet) -> Frame 
 /// Thumbnails from their rows of sums, with each one's share of the energy.
 fn thumbnails(strategies: &[Strategy], small: [u32; 2], rows: &[Vec<Vec3>], [width, height]: [u32; 2], factor: u32) -> Vec<Thumbnail> {
     let columns = small[0] as usize;
-    let energy = |n: usize| rows.iter().flat_map(|row| &row[n * columns..(n + 1) * columns]).map(|c| f64::from(c.element_sum())).sum::<f64>();
+    let energy =
+        |n: usize| rows.iter().flat_map(|row| &row[n * columns..(n + 1) * columns]).map(|c| f64::from(c.element_sum())).sum::<f64>();
     let total: f64 = (0..strategies.len()).map(energy).sum();
     // Cells at the right and the lower border may cover fewer pixels.
     let covered = |i: u32, side: u32| factor.min(side - i * factor) as f32;
     let pixels = |n: usize| {
-        let cells = rows.iter().zip(0u32..).flat_map(move |(row, y)| row[n * columns..(n + 1) * columns].iter().zip(0u32..).map(move |(sum, x)| (sum, x, y)));
+        let cells = rows
+            .iter()
+            .zip(0u32..)
+            .flat_map(move |(row, y)| row[n * columns..(n + 1) * columns].iter().zip(0u32..).map(move |(sum, x)| (sum, x, y)));
         cells.map(|(sum, x, y)| *sum / (covered(x, width) * covered(y, height))).collect()
     };
     strategies
         .iter()
         .enumerate()
-        .map(|(n, &strategy)| Thumbnail { strategy, size: small, pixels: pixels(n), share: if total > 0.0 { energy(n) / total } else { 0.0 } })
+        .map(|(n, &strategy)| Thumbnail {
+            strategy,
+            size: small,
+            pixels: pixels(n),
+            share: if total > 0.0 { energy(n) / total } else { 0.0 },
+        })
         .collect()
 }

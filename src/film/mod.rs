@@ -6,6 +6,9 @@
 //! each pass they are folded into f64 sums. So an image depends on its seed and never on the number of threads. Sums are
 //! divided by their counts only when someone looks.
 
+pub mod save;
+pub mod tonemap;
+
 use crate::math::Vec3;
 use std::sync::atomic::{AtomicU64, Ordering};
 

@@ -13,7 +13,10 @@ use super::Triangle;
 use crate::math::Vec3;
 use crate::shared_struct;
 use obvhs::BvhBuildParams;
-use obvhs::bvh2::builder::build_bvh2_from_tris;
+use obvhs::bvh2::leaf_collapser::collapse;
+use obvhs::bvh2::node::Bvh2Node;
+use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
+use obvhs::ploc::PlocBuilder;
 use prepared::PreparedRay;
 
 shared_struct! {
@@ -78,7 +81,7 @@ pub const STACK_SIZE: usize = 64;
 pub const PADDING: f32 = 2.0 * f32::EPSILON;
 
 /// Most triangles in a leaf.
-const LEAF_SIZE: usize = 6;
+const LEAF_SIZE: usize = 4;
 
 impl Bvh {
     /// Builds the hierarchy and reorders `triangles` so that every leaf's are contiguous. Coordinates must be finite.
@@ -180,17 +183,17 @@ fn by_surface_area(triangles: &[Triangle]) -> (Vec<Node>, Vec<u32>) {
     let corners: Vec<_> =
         triangles.iter().map(|t| obvhs::triangle::Triangle { v0: t.p0.into(), v1: t.p1.into(), v2: t.p2.into() }).collect();
     // Large scenes build with the faster preset: the build must not dwarf the first picture.
-    let mut params = if triangles.len() <= 200_000 { BvhBuildParams::slow_build() } else { BvhBuildParams::medium_build() };
-    params.pre_split = false;
-    params.max_prims_per_leaf = LEAF_SIZE as u32;
-    let built = build_bvh2_from_tris(&corners, params, &mut std::time::Duration::default());
-    let node = |n: &obvhs::bvh2::node::Bvh2Node| Node {
-        min: n.aabb.min.into(),
-        first: n.first_index,
-        max: n.aabb.max.into(),
-        count: n.prim_count,
-    };
-    (built.nodes.iter().map(node).collect(), built.primitive_indices)
+    let preset = if triangles.len() <= 200_000 { BvhBuildParams::slow_build() } else { BvhBuildParams::medium_build() };
+    // The steps of `build_bvh2_from_tris`, which itself reads a clock that browsers do not have.
+    let (indices, depth) = ((0..triangles.len() as u32).collect(), preset.search_depth_threshold);
+    let mut tree =
+        PlocBuilder::with_capacity(corners.len()).build(preset.ploc_search_distance, &corners, indices, preset.sort_precision, depth);
+    let mut optimizer = ReinsertionOptimizer::default();
+    optimizer.run(&mut tree, preset.reinsertion_batch_ratio, None);
+    collapse(&mut tree, LEAF_SIZE as u32, preset.collapse_traversal_cost);
+    optimizer.run(&mut tree, preset.reinsertion_batch_ratio * preset.post_collapse_reinsertion_batch_ratio_multiplier, None);
+    let node = |n: &Bvh2Node| Node { min: n.aabb.min.into(), first: n.first_index, max: n.aabb.max.into(), count: n.prim_count };
+    (tree.nodes.iter().map(node).collect(), tree.primitive_indices)
 }
 
 /// A balanced tree, of depth ≤ 2 + log₂ n: every node's triangles are halved along the longest side of their centroids.

@@ -33,7 +33,11 @@ pub fn mean_over_seeds(scene: &Arc<Scene>, settings: Settings, seeds: u32, passe
     let mut moments = Moments::default();
     for seed in 0..seeds {
         // Different settings get different seeds: the means are then independent.
-        let seed = seed * 1000 + u32::from(settings.roulette) + 2 * settings.heuristic.kind as u32 + 20 * u32::from(settings.strategies == StrategySet::ALL) + 40 * u32::from(settings.strategies.contains(Strategy::new(2, 1)));
+        let seed = seed * 1000
+            + u32::from(settings.roulette)
+            + 2 * settings.heuristic.kind as u32
+            + 20 * u32::from(settings.strategies == StrategySet::ALL)
+            + 40 * u32::from(settings.strategies.contains(Strategy::new(2, 1)));
         moments.add(mean(&rendered(job(scene, [24, 24], Settings { seed, ..settings }), passes).image()));
     }
     moments
@@ -59,7 +63,12 @@ fn a_closed_furnace_glows_as_it_must_length_by_length() {
         let exact = |length: u32| f64::from(radiance) * f64::from(albedo).powi(length as i32 - 1);
         for length in 1..=k {
             let z = per_length[length as usize].z(exact(length));
-            assert!(z.abs() < limit, "k = {length}, roulette {roulette}: {} instead of {}, z = {z}", per_length[length as usize].mean(), exact(length));
+            assert!(
+                z.abs() < limit,
+                "k = {length}, roulette {roulette}: {} instead of {}, z = {z}",
+                per_length[length as usize].mean(),
+                exact(length)
+            );
         }
         let total: f64 = (1..=k).map(exact).sum();
         assert!((total - f64::from(radiance) * (1.0 - f64::from(albedo).powi(k as i32)) / (1.0 - f64::from(albedo))).abs() < 1e-6);
@@ -82,7 +91,9 @@ fn the_built_in_furnace_is_one_too() {
 #[test]
 fn integrators_roulette_and_heuristics_keep_the_mean() {
     let heuristic = |kind| Heuristic { kind, ..Heuristic::default() };
-    for (scene, all_can) in [(scenes::patches(), true), (scenes::furnace(1.0, 0.6), true), (scenes::builtin("cornell"), true), (scenes::tilted(), false)] {
+    for (scene, all_can) in
+        [(scenes::patches(), true), (scenes::furnace(1.0, 0.6), true), (scenes::builtin("cornell"), true), (scenes::tilted(), false)]
+    {
         let base = Settings { max_edges: 4, ..Settings::default() };
         let mut variants = vec![
             ("roulette off", Settings { roulette: false, ..base }),
@@ -100,7 +111,13 @@ fn integrators_roulette_and_heuristics_keep_the_mean() {
         for (name, settings) in variants {
             let other = mean_over_seeds(&scene, settings, 24, 24);
             let z = z_between(&reference, &other);
-            println!("{} {name}: {:.5} ± {:.5} against {:.5}, z = {z:.2}", scene.name, other.mean(), other.error2().sqrt(), reference.mean());
+            println!(
+                "{} {name}: {:.5} ± {:.5} against {:.5}, z = {z:.2}",
+                scene.name,
+                other.mean(),
+                other.error2().sqrt(),
+                reference.mean()
+            );
             assert!(z.abs() < limit, "{}, {name}: {} against {}, z = {z}", scene.name, other.mean(), reference.mean());
         }
     }

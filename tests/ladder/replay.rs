@@ -132,7 +132,14 @@ fn replay_path(context: &Context, x: &[Vertex], original: &FullPath, spoil: Spoi
 }
 
 fn all_scenes() -> Vec<Arc<Scene>> {
-    vec![scenes::patches(), scenes::furnace(1.0, 0.7), scenes::specular(), scenes::tilted(), scenes::builtin("cornell"), scenes::builtin("cornell-spheres")]
+    vec![
+        scenes::patches(),
+        scenes::furnace(1.0, 0.7),
+        scenes::specular(),
+        scenes::tilted(),
+        scenes::builtin("cornell"),
+        scenes::builtin("cornell-spheres"),
+    ]
 }
 
 /// At least 10⁵ sampled, well-conditioned paths (and many others) in six scenes, with and without roulette, each rebuilt as every strategy that could make it:

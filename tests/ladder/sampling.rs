@@ -204,7 +204,9 @@ fn smooth_dielectrics_choose_reflection_as_often_as_fresnel_says() {
         let side = if eta < 1.0 { 1.0 } else { -1.0 };
         let w_in = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos * side);
         let bsdf = Bsdf { n_g: Vec3::Z, n_s: Vec3::Z, material: &material };
-        let reflected = (0..N).filter(|&i| bsdf.sample(w_in, TransportMode::Radiance, numbers(i, 9)[0], Vec2::ZERO).unwrap().w.z * side > 0.0).count() as u64;
+        let reflected = (0..N)
+            .filter(|&i| bsdf.sample(w_in, TransportMode::Radiance, numbers(i, 9)[0], Vec2::ZERO).unwrap().w.z * side > 0.0)
+            .count() as u64;
         let expected = f64::from(fresnel_dielectric(cos, eta)) * f64::from(N);
         let p = chi_squared(&[reflected, u64::from(N) - reflected], &[expected, f64::from(N) - expected]);
         assert!(p > LEVEL || reflected == u64::from(N), "cos {cos} eta {eta}: p = {p}");
@@ -218,7 +220,11 @@ fn smooth_dielectrics_choose_reflection_as_often_as_fresnel_says() {
 /// each walk's throughput obeys its mode, and nothing reflects more than arrives.
 #[test]
 fn dirac_components_are_one_function_seen_from_both_ends() {
-    let materials = [Material::dielectric(Vec3::splat(0.9), 1.5, false), Material::dielectric(Vec3::splat(0.9), 1.5, true), Material::mirror(Vec3::new(0.9, 0.5, 0.2))];
+    let materials = [
+        Material::dielectric(Vec3::splat(0.9), 1.5, false),
+        Material::dielectric(Vec3::splat(0.9), 1.5, true),
+        Material::mirror(Vec3::new(0.9, 0.5, 0.2)),
+    ];
     let mut checked = 0;
     for material in &materials {
         for (i, n_s) in (0..4000).map(|i| (i, if i % 2 == 0 { Vec3::Z } else { Vec3::new(0.15, -0.1, 1.0).normalize() })) {
@@ -237,14 +243,19 @@ fn dirac_components_are_one_function_seen_from_both_ends() {
             let back = [0.0, 1.0f32.next_down()].into_iter().filter_map(|u| bsdf.sample(eye.w, TransportMode::Importance, u, Vec2::ZERO));
             let light = back.max_by(|a, b| a.w.dot(w_e).total_cmp(&b.w.dot(w_e))).unwrap();
             assert!((light.w - w_e).length() < 1e-5, "{} {}", light.w, w_e);
-            let close = |a: f32, b: f32, what: &str| assert!((a - b).abs() <= 1e-4 * a.abs().max(b.abs()), "{what}: {a} {b} ({material:?} {w_e})");
+            let close =
+                |a: f32, b: f32, what: &str| assert!((a - b).abs() <= 1e-4 * a.abs().max(b.abs()), "{what}: {a} {b} ({material:?} {w_e})");
             close(eye.pdf_fwd_psa, light.pdf_rev_psa, "density of ω_L");
             close(eye.pdf_rev_psa, light.pdf_fwd_psa, "density of ω_E");
             close(eye.f.x, light.f.x, "f̄");
             checked += 1;
             if n_s == Vec3::Z {
                 let transmitted = w_e.z * eye.w.z < 0.0;
-                let eta2 = if transmitted && material.kind == bdpt_explorer::scene::DIELECTRIC { if w_e.z > 0.0 { 1.0 / 2.25 } else { 2.25 } } else { 1.0 };
+                let eta2 = if transmitted && material.kind == bdpt_explorer::scene::DIELECTRIC {
+                    if w_e.z > 0.0 { 1.0 / 2.25 } else { 2.25 }
+                } else {
+                    1.0
+                };
                 let tint = if transmitted { 0.9 } else { 1.0 };
                 if material.kind != bdpt_explorer::scene::MIRROR {
                     // Radiance is scaled by (η_E/η_L)², importance is not.
@@ -267,7 +278,10 @@ fn lambert_is_reciprocal_and_reflects_its_albedo() {
         let w_i = sample_cosine_hemisphere(pair(numbers(i, 11), 0));
         let w_o = sample_cosine_hemisphere(pair(numbers(i, 12), 0));
         assert_eq!(bsdf.eval(w_i, w_o), bsdf.eval(w_o, w_i));
-        let albedo: f64 = (0..4096).map(|j| f64::from(bsdf.eval(sample_cosine_hemisphere(pair(numbers(j, 13), 0)), w_o).x) * std::f64::consts::PI).sum::<f64>() / 4096.0;
+        let albedo: f64 = (0..4096)
+            .map(|j| f64::from(bsdf.eval(sample_cosine_hemisphere(pair(numbers(j, 13), 0)), w_o).x) * std::f64::consts::PI)
+            .sum::<f64>()
+            / 4096.0;
         assert!((albedo - 0.8).abs() < 3e-3, "{albedo}");
     }
 }

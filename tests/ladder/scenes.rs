@@ -39,14 +39,7 @@ impl Room {
         let corner = |i: [bool; 3]| std::array::from_fn(|c| if i[c] { b[c] } else { a[c] });
         let (low, high) = (corner([false; 3]), |axis: usize| corner(std::array::from_fn(|c| c == axis)));
         // (start, u, v) with u × v pointing outwards.
-        let faces = [
-            (low, z, y),
-            (high(0), y, z),
-            (low, x, z),
-            (high(1), z, x),
-            (low, y, x),
-            (high(2), x, y),
-        ];
+        let faces = [(low, z, y), (high(0), y, z), (low, x, z), (high(1), z, x), (low, y, x), (high(2), x, y)];
         for ((p, u, v), material) in faces.into_iter().zip(materials) {
             if inwards { self.quad(p, v, u, material) } else { self.quad(p, u, v, material) }
         }
@@ -56,7 +49,10 @@ impl Room {
     pub fn sphere(&mut self, centre: [f64; 3], radius: f64, rings: u32, smooth: bool, material: u32) {
         let centre = DVec3::from(centre);
         let at = |i: u32, j: u32| {
-            let (theta, phi) = (f64::from(i) / f64::from(rings) * std::f64::consts::PI, f64::from(j % (2 * rings)) / f64::from(rings) * std::f64::consts::PI);
+            let (theta, phi) = (
+                f64::from(i) / f64::from(rings) * std::f64::consts::PI,
+                f64::from(j % (2 * rings)) / f64::from(rings) * std::f64::consts::PI,
+            );
             DVec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin())
         };
         for i in 0..rings {
@@ -73,7 +69,13 @@ impl Room {
 
     pub fn camera(&mut self, position: [f64; 3], target: [f64; 3], yfov_degrees: f64) {
         let position = DVec3::from(position);
-        let camera = PartCamera { name: "camera".into(), position, axis: DVec3::from(target) - position, up: DVec3::Y, yfov: yfov_degrees.to_radians() };
+        let camera = PartCamera {
+            name: "camera".into(),
+            position,
+            axis: DVec3::from(target) - position,
+            up: DVec3::Y,
+            yfov: yfov_degrees.to_radians(),
+        };
         self.0.cameras.push(camera);
     }
 

@@ -95,7 +95,11 @@ fn every_pair_of_strategies_agrees_per_length() {
         for (roulette, fresh_ends) in [(true, true), (false, false)] {
             let settings = Settings { max_edges: K, roulette, fresh_ends, ..Settings::default() };
             let (judged, left_out) = judged(&compare(scene, *samples / 2, &settings, |_| 1.0));
-            println!("{}, roulette {roulette}, fresh ends {fresh_ends}: {} pairs judged, {left_out} without enough samples", scene.name, judged.len());
+            println!(
+                "{}, roulette {roulette}, fresh ends {fresh_ends}: {} pairs judged, {left_out} without enough samples",
+                scene.name,
+                judged.len()
+            );
             assert!(judged.len() >= 10, "{}: too few pairs to mean anything", scene.name);
             results.extend(judged.into_iter().map(|(pair, z)| (scene.name.clone(), pair, z)));
         }

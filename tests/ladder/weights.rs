@@ -5,7 +5,8 @@ use bdpt_explorer::bdpt::path::FullPath;
 use bdpt_explorer::bdpt::{Heuristic, HeuristicKind};
 use bdpt_explorer::rng::SampleId;
 
-const KINDS: [HeuristicKind; 5] = [HeuristicKind::Power, HeuristicKind::Balance, HeuristicKind::Max, HeuristicKind::Cutoff, HeuristicKind::Uniform];
+const KINDS: [HeuristicKind; 5] =
+    [HeuristicKind::Power, HeuristicKind::Balance, HeuristicKind::Max, HeuristicKind::Cutoff, HeuristicKind::Uniform];
 
 /// A path of random densities 10^±`spread`, random Diracs and a genuine zero now and then.
 fn random_path(n: u32, spread: f32) -> FullPath {
@@ -66,7 +67,10 @@ fn thresholds_flip_on_roundings_only() {
         let wrong = (0..100_000).filter(|&n| {
             let path = random_path(n, 6.0);
             let definition = mis_weights_by_definition(&path, &path.active[..path.k + 2], &heuristic);
-            definition.iter().enumerate().any(|(s, exact)| path.active[s] && (f64::from(mis_weight(&path, s, &heuristic)) - exact).abs() > 1e-5)
+            definition
+                .iter()
+                .enumerate()
+                .any(|(s, exact)| path.active[s] && (f64::from(mis_weight(&path, s, &heuristic)) - exact).abs() > 1e-5)
         });
         assert!(wrong.count() < 10, "{kind:?}");
     }

@@ -8,8 +8,8 @@ use super::nodes::{Placed, label};
 use crate::math::{DMat3, Vec3};
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
-use std::collections::hash_map::{Entry, HashMap};
 use std::collections::HashSet;
+use std::collections::hash_map::{Entry, HashMap};
 
 /// More triangles than this are refused: they would not fit in memory.
 const MAX_TRIANGLES: usize = 1 << 26;
@@ -49,7 +49,9 @@ pub fn triangles(
                     let shape = Shape::read(document, primitive).map_err(fail)?;
                     if let Some(rounding) = shape.lost_precision() {
                         let name = label("mesh", index, mesh.name.as_deref());
-                        notes.push(format!("The positions of {name} are so far from its zero that the file rounds them to {rounding:.0e} m."));
+                        notes.push(format!(
+                            "The positions of {name} are so far from its zero that the file rounds them to {rounding:.0e} m."
+                        ));
                     }
                     let material = materials.index(primitive.material.map(|m| m.value()), || shape.is_closed())?;
                     new.insert((shape, material))

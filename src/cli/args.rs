@@ -1,0 +1,149 @@
+//! The words of the command line. Whatever can be judged without the scene is judged here, value by value.
+
+use super::values::*;
+use crate::bdpt::{HeuristicKind, Strategy};
+use crate::engine::Crop;
+use crate::film::tonemap::ToneMap;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{ArgAction, Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// See bidirectional path tracing: without a command, a window opens on SCENE.
+#[derive(Parser)]
+#[command(version)]
+pub struct Options {
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// A built-in scene (see `scenes`), or a .gltf or .glb file
+    pub scene: Option<String>,
+}
+
+#[derive(Subcommand)]
+pub enum Command {
+    /// List the built-in scenes: what each teaches, and what it is made of
+    Scenes,
+    /// Render a scene into files
+    Render(RenderArgs),
+    /// Show how one sample of one pixel was made: both subpaths, every strategy, its weight, its contribution
+    Inspect(InspectArgs),
+}
+
+#[derive(Args)]
+pub struct RenderArgs {
+    #[command(flatten)]
+    pub estimator: EstimatorArgs,
+    /// Where to: .exr (linear radiance) or .png (tone-mapped)
+    #[arg(short, long, value_name = "FILE", value_parser = picture_path, required_unless_present_any = ["pyramid", "stats"])]
+    pub output: Option<PathBuf>,
+    /// Samples per pixel [default: 64]
+    #[arg(long, value_name = "N", value_parser = positive, allow_hyphen_values = true, conflicts_with = "time")]
+    pub spp: Option<u32>,
+    /// Render for this many seconds instead
+    #[arg(long, value_name = "S", value_parser = seconds, allow_hyphen_values = true)]
+    pub time: Option<f64>,
+    /// Only this window of the picture, from its top left pixel; what lies in it does not change
+    #[arg(long, value_name = "X,Y,W,H", value_parser = crop, allow_hyphen_values = true)]
+    pub crop: Option<Crop>,
+    /// Which renderer
+    #[arg(long, value_name = "NAME", value_parser = ["cpu", "auto"], default_value = "auto")]
+    pub backend: String,
+    /// What becomes of strategies that --strategies does not list: their weight goes to the listed (remove), or they are
+    /// left out of the sum and all weights stay (hide)
+    #[arg(long = "strategies-mode", value_name = "MODE", action = ArgAction::Set, value_parser = PossibleValuesParser::new(["remove", "hide"]).map(|mode| mode == "hide"), default_value = "remove")]
+    pub hide: bool,
+    /// Exposure of .png files, in stops
+    #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true, default_value = "0")]
+    pub exposure: f32,
+    /// Tone curve of .png files
+    #[arg(long, value_name = "NAME", value_parser = tonemap_parser(), default_value = "srgb")]
+    pub tonemap: ToneMap,
+    /// Write pyramid.exr (a layer per strategy) and contact-sheet.png into this folder
+    #[arg(long, value_name = "DIR")]
+    pub pyramid: Option<PathBuf>,
+    /// Write counts and times as JSON
+    #[arg(long, value_name = "FILE")]
+    pub stats: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub struct InspectArgs {
+    #[command(flatten)]
+    pub estimator: EstimatorArgs,
+    /// Column and row, from the top left, counted from 0
+    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
+    pub pixel: [u32; 2],
+    /// Which sample of the pixel, counted from 0
+    #[arg(long, value_name = "N", value_parser = natural, allow_hyphen_values = true, default_value = "0")]
+    pub sample: u32,
+    /// Everything, as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What a path is made with: the same for `render` and `inspect`, so that both speak of the same samples.
+#[derive(Args)]
+pub struct EstimatorArgs {
+    /// A built-in scene (see `scenes`), or a .gltf or .glb file
+    pub scene: String,
+    /// Size of the full picture
+    #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true, default_value = "512x512")]
+    pub size: [u32; 2],
+    /// Camera, by its name in the file [default: the first]
+    #[arg(long, value_name = "NAME")]
+    pub camera: Option<String>,
+    /// K: the most edges a path may have, 1 to 64
+    #[arg(long, value_name = "K", value_parser = edges, allow_hyphen_values = true, default_value = "6")]
+    pub max_edges: u32,
+    /// Seed of the random numbers
+    #[arg(long, value_name = "N", value_parser = natural, allow_hyphen_values = true, default_value = "0")]
+    pub seed: u32,
+    /// How strategies that can make the same path share it
+    #[arg(long, value_name = "NAME", value_parser = heuristic_parser(), default_value = "power")]
+    pub heuristic: HeuristicKind,
+    /// Exponent of the power heuristic
+    #[arg(long, value_name = "B", value_parser = beta, allow_hyphen_values = true, default_value = "2")]
+    pub beta: f32,
+    /// Threshold of the cutoff heuristic, 0 to 1
+    #[arg(long, value_name = "A", value_parser = fraction, allow_hyphen_values = true, default_value = "0.1")]
+    pub cutoff: f32,
+    /// `all`, or a list such as s0t2,s1t1
+    #[arg(long, value_name = "LIST", value_parser = Selection::parse, default_value = "all")]
+    pub strategies: Selection,
+    /// Bidirectional, or only the strategies of a path tracer (s ≤ 1) or a light tracer (t ≤ 1)
+    #[arg(long, value_name = "NAME", value_parser = ["bdpt", "pt", "lt"], default_value = "bdpt")]
+    pub integrator: String,
+    /// Russian roulette
+    #[arg(long, value_name = "on|off", action = ArgAction::Set, value_parser = PossibleValuesParser::new(["on", "off"]).map(|word| word == "on"), default_value = "on")]
+    pub roulette: bool,
+}
+
+/// The value of `--strategies`.
+#[derive(Clone, Debug)]
+pub enum Selection {
+    All,
+    Listed(Vec<Strategy>),
+}
+
+impl Selection {
+    fn parse(text: &str) -> Result<Self, String> {
+        if text == "all" {
+            return Ok(Self::All);
+        }
+        let parse = |name: &str| Strategy::parse(name).ok_or(format!("'{name}' is no strategy; write `all`, or a list such as s0t2,s1t1"));
+        text.split(',').map(parse).collect::<Result<_, _>>().map(Self::Listed)
+    }
+}
+
+fn heuristic_parser() -> impl TypedValueParser<Value = HeuristicKind> {
+    PossibleValuesParser::new(["power", "balance", "max", "cutoff", "uniform"]).map(|name| match name.as_str() {
+        "balance" => HeuristicKind::Balance,
+        "max" => HeuristicKind::Max,
+        "cutoff" => HeuristicKind::Cutoff,
+        "uniform" => HeuristicKind::Uniform,
+        _ => HeuristicKind::Power,
+    })
+}
+
+fn tonemap_parser() -> impl TypedValueParser<Value = ToneMap> {
+    PossibleValuesParser::new(ToneMap::ALL.map(ToneMap::name)).map(|name| ToneMap::parse(&name).unwrap_or_default())
+}

@@ -1,0 +1,207 @@
+//! `render`: from a job to files. Also what happens where no window can be opened.
+
+use super::args::RenderArgs;
+use super::job::{Prepared, open, prepare};
+use super::progress::{self, Limit};
+use super::{Failure, print};
+use crate::bdpt::{HeuristicKind, Strategy, StrategySet};
+use crate::engine::{Job, Session};
+use crate::film::Rect;
+use crate::film::save::{Layer, Window, check_writable, save_bytes, save_exr, save_png};
+use crate::film::tonemap::{ToneMap, to_srgb8};
+use crate::math::Vec3;
+use crate::report::{ContactSheet, Heading};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// Samples per pixel unless the user says otherwise.
+const SPP: u32 = 64;
+/// Where there is no window, this is long enough to show something and short enough to wait for.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// Carries out `render`.
+pub fn run(args: &RenderArgs) -> Result<(), Failure> {
+    let Prepared { mut job, shown, hide } = prepare(&args.estimator, args.hide)?;
+    job.crop = args.crop;
+    job.weighted_layers |= args.pyramid.is_some();
+    job.raw_layers = args.pyramid.is_some();
+    job.check()?;
+    check_outputs(args)?;
+    let time = args.time.map(Duration::from_secs_f64);
+    let limit = Limit { spp: args.spp.or(if time.is_none() { Some(SPP) } else { None }), time };
+    let mut rendering = Rendering { session: Session::new(job)?, shown, hide, exposure_ev: args.exposure, tonemap: args.tonemap };
+    let interrupted = progress::run(&mut rendering.session, limit)?;
+    let mut files = Vec::new();
+    if let Some(path) = &args.output {
+        rendering.save_picture(path)?;
+        files.push(path.clone());
+    }
+    if let Some(folder) = &args.pyramid {
+        files.push(rendering.save_pyramid(folder)?);
+        files.push(rendering.save_contact_sheet(folder)?);
+    }
+    if let Some(path) = &args.stats {
+        rendering.save_stats(path)?;
+        files.push(path.clone());
+    }
+    rendering.report(&files, interrupted);
+    Ok(())
+}
+
+/// Renders `scene` at the defaults into a folder, because there is no window to show it in.
+pub fn without_window(why: &str, scene: &str) -> Result<(), Failure> {
+    let scene = open(scene)?;
+    let folder = Path::new("bdpt-explorer-out");
+    eprintln!("no window: {why}");
+    eprintln!("rendering {} on the CPU into ./{}/ instead (at most {} s)", scene.name, folder.display(), PATIENCE.as_secs());
+    let stem = Path::new(&scene.name).file_stem().unwrap_or("scene".as_ref()).to_string_lossy().into_owned();
+    let job = Job { weighted_layers: true, ..Job::new(scene) };
+    let shown = job.settings.active().collect();
+    create_folder(folder)?;
+    let [png, exr] = ["png", "exr"].map(|extension| folder.join(format!("{stem}.{extension}")));
+    check_writable(&png)?;
+    let mut rendering = Rendering { session: Session::new(job)?, shown, hide: false, exposure_ev: 0.0, tonemap: ToneMap::default() };
+    let interrupted = progress::run(&mut rendering.session, Limit { spp: Some(SPP), time: Some(PATIENCE) })?;
+    rendering.save_picture(&png)?;
+    rendering.save_picture(&exr)?;
+    let sheet = rendering.save_contact_sheet(folder)?;
+    rendering.report(&[png, exr, sheet], interrupted);
+    print(
+        "next: `bdpt-explorer render SCENE -o out.exr` renders with your settings, `bdpt-explorer inspect SCENE --pixel 256,256` shows how a pixel was made; --help lists the rest\n",
+    );
+    Ok(())
+}
+
+/// Finds a bad destination before the rendering that would be lost to it.
+fn check_outputs(args: &RenderArgs) -> Result<(), Failure> {
+    for path in args.output.iter().chain(&args.stats) {
+        check_writable(path)?;
+    }
+    if let Some(folder) = &args.pyramid {
+        create_folder(folder)?;
+        check_writable(&folder.join("pyramid.exr"))?;
+    }
+    Ok(())
+}
+
+fn create_folder(folder: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(folder).map_err(|error| Failure(format!("cannot create the folder '{}': {error}; choose another", folder.display())))
+}
+
+/// A rendering and how it is to be shown.
+struct Rendering {
+    session: Session,
+    /// The strategies whose sum is the picture, in index order.
+    shown: Vec<Strategy>,
+    /// Are there others that take part?
+    hide: bool,
+    exposure_ev: f32,
+    tonemap: ToneMap,
+}
+
+impl Rendering {
+    fn window(&self) -> Window {
+        let job = self.session.job();
+        Window { film: job.size, rect: job.crop.unwrap_or(Rect::full(job.size)) }
+    }
+
+    fn image(&self) -> Vec<Vec3> {
+        if !self.hide {
+            return self.session.image();
+        }
+        let mut hidden = StrategySet::ALL;
+        self.shown.iter().for_each(|&strategy| hidden.set(strategy, false));
+        self.session.image_without(&hidden)
+    }
+
+    fn save_picture(&self, path: &Path) -> Result<(), Failure> {
+        let (window, image) = (self.window(), self.image());
+        if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png")) {
+            let rgb: Vec<u8> = window.pick(&image).flat_map(|pixel| to_srgb8(pixel, self.exposure_ev, self.tonemap)).collect();
+            return Ok(save_png(path, window.size(), &rgb)?);
+        }
+        Ok(save_exr(path, window, &[Layer { name: "", pixels: &image }])?)
+    }
+
+    /// One EXR with every shown strategy, raw and weighted.
+    fn save_pyramid(&self, folder: &Path) -> Result<PathBuf, Failure> {
+        let kinds = [("raw", false), ("weighted", true)];
+        let layer = |strategy: Strategy, (kind, weighted)| Some((format!("{kind}.{strategy}"), self.session.layer(strategy, weighted)?));
+        let layers: Vec<_> = self.shown.iter().flat_map(|&strategy| kinds.map(|kind| layer(strategy, kind))).flatten().collect();
+        let layers: Vec<_> = layers.iter().map(|(name, pixels)| Layer { name, pixels }).collect();
+        let path = folder.join("pyramid.exr");
+        save_exr(&path, self.window(), &layers)?;
+        Ok(path)
+    }
+
+    fn save_contact_sheet(&self, folder: &Path) -> Result<PathBuf, Failure> {
+        let (job, details) = (self.session.job(), self.details());
+        let heading = Heading { title: job.scene.name.clone(), details, exposure_ev: self.exposure_ev, tonemap: self.tonemap };
+        let mut sheet = ContactSheet::new(heading, self.window(), &self.image(), job.settings.max_edges);
+        for &strategy in &self.shown {
+            if let Some(layer) = self.session.layer(strategy, true) {
+                sheet.add(strategy, &layer);
+            }
+        }
+        let (path, canvas) = (folder.join("contact-sheet.png"), sheet.draw());
+        save_png(&path, canvas.size, &canvas.rgb)?;
+        Ok(path)
+    }
+
+    fn save_stats(&self, path: &Path) -> Result<(), Failure> {
+        let json = serde_json::to_string_pretty(&self.session.stats()).map_err(|error| Failure(format!("--stats: {error}")))?;
+        Ok(save_bytes(path, format!("{json}\n").as_bytes())?)
+    }
+
+    /// What made the picture, in a line.
+    fn details(&self) -> String {
+        let settings = &self.session.job().settings;
+        let heuristic = match settings.heuristic.kind {
+            HeuristicKind::Power => format!("power heuristic, β = {}", settings.heuristic.beta),
+            HeuristicKind::Balance => "balance heuristic".to_owned(),
+            HeuristicKind::Max => "maximum heuristic".to_owned(),
+            HeuristicKind::Cutoff => format!("cutoff heuristic at {}", settings.heuristic.cutoff),
+            HeuristicKind::Uniform => "uniform weights".to_owned(),
+        };
+        let roulette = if settings.roulette { "" } else { " · no roulette" };
+        let hidden = if self.hide { " · some strategies hidden" } else { "" };
+        format!("{} · K = {} · {heuristic} · seed {}{roulette}{hidden}", self.extent(), settings.max_edges, settings.seed)
+    }
+
+    /// Size and samples.
+    fn extent(&self) -> String {
+        let ([width, height], spp) = (self.window().size(), self.session.stats().spp);
+        let digits = if spp.fract() == 0.0 { 0 } else { 1 };
+        format!("{width}×{height} · {spp:.digits$} spp")
+    }
+
+    /// Says what was done, on stdout; what is odd about it, on stderr.
+    fn report(&self, files: &[PathBuf], interrupted: bool) {
+        let (stats, passes) = (self.session.stats(), self.session.passes());
+        if interrupted {
+            eprintln!("note: stopped by Ctrl-C after {passes} samples per pixel");
+        }
+        if self.session.pass_fraction() > 0.0 {
+            let done = 100.0 * self.session.pass_fraction();
+            eprintln!(
+                "note: the last pass is partial: the top {done:.0} % of the rows have {} samples per pixel, the others {passes}",
+                passes + 1
+            );
+        }
+        if stats.non_finite > 0 {
+            eprintln!("note: {} contributions were no finite numbers and were left out", stats.non_finite);
+        }
+        if stats.saturated > 0 {
+            eprintln!("note: {} splats were too bright to count and were cut", stats.saturated);
+        }
+        let rate = stats.pairs as f64 / stats.seconds.max(1e-9) * 1e-6;
+        print(&format!(
+            "{}: {} in {:.1} s, {rate:.2} million path pairs per second\n",
+            self.session.job().scene.name,
+            self.extent(),
+            stats.seconds
+        ));
+        files.iter().for_each(|file| print(&format!("wrote {}\n", file.display())));
+    }
+}

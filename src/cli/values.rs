@@ -1,0 +1,112 @@
+//! Parsers of single values; every refusal says what would do.
+
+use crate::bdpt::strategy::MAX_EDGES;
+use crate::engine::Crop;
+use std::path::PathBuf;
+
+/// A whole number from 0 on.
+pub fn natural(text: &str) -> Result<u32, String> {
+    text.parse().map_err(|_| format!("give a whole number from 0 to {}", u32::MAX))
+}
+
+/// A whole number from 1 on.
+pub fn positive(text: &str) -> Result<u32, String> {
+    text.parse().ok().filter(|&n| n > 0).ok_or(format!("give a whole number from 1 to {}", u32::MAX))
+}
+
+/// K.
+pub fn edges(text: &str) -> Result<u32, String> {
+    text.parse().ok().filter(|k| (1..=MAX_EDGES as u32).contains(k)).ok_or(format!("give a whole number from 1 to {MAX_EDGES}"))
+}
+
+/// A number in a range; NaN is in none.
+fn number(text: &str, low: f32, high: f32) -> Result<f32, String> {
+    text.parse().ok().filter(|x| (low..=high).contains(x)).ok_or(format!("give a number from {low} to {high}"))
+}
+
+/// β; far beyond the upper end it is the maximum heuristic.
+pub fn beta(text: &str) -> Result<f32, String> {
+    number(text, 0.0, 100.0)
+}
+
+/// A number from 0 to 1.
+pub fn fraction(text: &str) -> Result<f32, String> {
+    number(text, 0.0, 1.0)
+}
+
+/// An exposure in stops.
+pub fn stops(text: &str) -> Result<f32, String> {
+    number(text, -64.0, 64.0)
+}
+
+/// A time.
+pub fn seconds(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|s| *s > 0.0 && *s <= 1e7).ok_or("give a number of seconds above 0, at most 10000000".to_owned())
+}
+
+/// `WxH`.
+pub fn size(text: &str) -> Result<[u32; 2], String> {
+    let parse = || text.split_once('x').and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
+    parse().filter(|size| !size.contains(&0)).ok_or("give width x height in pixels, both at least 1, such as 512x512".to_owned())
+}
+
+/// `X,Y`.
+pub fn pixel(text: &str) -> Result<[u32; 2], String> {
+    let numbers: Option<Vec<u32>> = text.split(',').map(|n| n.parse().ok()).collect();
+    numbers.and_then(|n| n.try_into().ok()).ok_or("give column,row counted from 0, such as 100,200".to_owned())
+}
+
+/// `X,Y,W,H`.
+pub fn crop(text: &str) -> Result<Crop, String> {
+    let numbers: Option<Vec<u32>> = text.split(',').map(|n| n.parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[_, _, width, height]) if width == 0 || height == 0 => {
+            Err("the window is empty; give a width and a height of at least 1".to_owned())
+        }
+        Some(&[x, y, width, height]) => Ok(Crop { x, y, width, height }),
+        _ => Err("give left,top,width,height in pixels, such as 100,200,64,64".to_owned()),
+    }
+}
+
+/// The name of a picture.
+pub fn picture_path(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase).as_deref() {
+        Some("exr" | "png") => Ok(path),
+        _ => Err("name a file that ends in .exr (linear radiance) or .png (tone-mapped)".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn good_values() {
+        assert_eq!(size("512x384"), Ok([512, 384]));
+        assert_eq!(pixel("3,4"), Ok([3, 4]));
+        assert_eq!(crop("1,2,3,4"), Ok(Crop { x: 1, y: 2, width: 3, height: 4 }));
+        assert_eq!((edges("64"), positive("1"), natural("0")), (Ok(64), Ok(1), Ok(0)));
+        assert_eq!((beta("0.5"), fraction("1"), stops("-2"), seconds("1e-3")), (Ok(0.5), Ok(1.0), Ok(-2.0), Ok(1e-3)));
+        assert!(picture_path("a.b.EXR").is_ok() && picture_path("x/y.png").is_ok());
+    }
+
+    #[test]
+    fn bad_values() {
+        for text in ["", "0x0", "512", "-1x5", "1x", "x", "1x2x3", "1.5x2", "99999999999x1", " 1x1"] {
+            assert!(size(text).is_err(), "{text}");
+        }
+        for text in ["", "1", "1,2,3", "-1,0", "1, 2", "a,b"] {
+            assert!(pixel(text).is_err(), "{text}");
+        }
+        for text in ["", "1,2,3", "1,2,0,4", "1,2,3,0", "1,2,3,4,5", "-1,2,3,4"] {
+            assert!(crop(text).is_err(), "{text}");
+        }
+        for text in ["NaN", "nan", "inf", "-inf", "-1", "1e39", "", "two"] {
+            assert!(beta(text).is_err() && fraction(text).is_err() && seconds(text).is_err(), "{text}");
+        }
+        assert!(stops("NaN").is_err() && stops("inf").is_err() && seconds("0").is_err() && positive("0").is_err());
+        assert!(edges("0").is_err() && edges("65").is_err() && edges("100000").is_err());
+        assert!(picture_path("a.jpg").is_err() && picture_path("exr").is_err());
+    }
+}

@@ -1,0 +1,151 @@
+//! The program's window: the layout of its panels, and the passes in which they are shown.
+
+use super::live::{Live, SceneSource};
+use super::pictures::Pictures;
+use super::state::{Maximised, Preferences, State};
+use super::text::{Text, fill};
+use super::{help, image_view, inspector, keys, messages, pyramid, status_bar, theme, top_bar};
+use eframe::egui::{self, Align2, CentralPanel, Frame, Margin, Panel, Pos2, Rect, Ui, vec2};
+use web_time::Instant;
+
+const PREFERENCES: &str = "preferences";
+
+/// What to start with.
+pub struct Start {
+    /// The scene.
+    pub source: SceneSource,
+    /// Film size, pixels.
+    pub size: [u32; 2],
+}
+
+/// The window.
+pub struct App {
+    state: State,
+    live: Live,
+    pictures: Pictures,
+    image: Rect,
+    ui_ms: f32,
+}
+
+impl App {
+    /// A window that shows `start`; nothing here needs a real one.
+    pub fn new(start: Start, ctx: &egui::Context, storage: Option<&dyn eframe::Storage>) -> Self {
+        let preferences: Option<Preferences> = storage.and_then(|storage| eframe::get_value(storage, PREFERENCES));
+        theme::install(ctx);
+        let mut live = Live::new(ctx);
+        live.open(start.source);
+        Self {
+            state: State::new(preferences.unwrap_or_default(), start.size),
+            live,
+            pictures: Pictures::new(ctx),
+            image: Rect::NOTHING,
+            ui_ms: 0.0,
+        }
+    }
+
+    /// What a person chose.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The same, to change it.
+    pub fn state_mut(&mut self) -> &mut State {
+        &mut self.state
+    }
+
+    /// What runs.
+    pub fn live(&self) -> &Live {
+        &self.live
+    }
+
+    /// Where the centre of a pixel is on the screen.
+    pub fn on_screen(&self, pixel: [u32; 2]) -> Pos2 {
+        let [width, height] = self.state.size.map(|n| n as f32);
+        let [x, y] = pixel.map(|v| v as f32 + 0.5);
+        self.image.min + vec2(x / width * self.image.width(), y / height * self.image.height())
+    }
+
+    fn sync(&mut self, ctx: &egui::Context) {
+        if self.live.sync(&mut self.state) {
+            ctx.request_repaint();
+        }
+    }
+
+    fn panels(&mut self, ui: &mut Ui) {
+        let Self { state, live, pictures, .. } = self;
+        let bar = |top: i8| Frame::side_top_panel(ui.style()).inner_margin(Margin { left: 10, right: 10, top, bottom: top });
+        let (wide, slim) = (bar(6), bar(3));
+        Panel::top("top bar").frame(wide).show(ui, |ui| top_bar::show(ui, state, live));
+        if !state.messages.is_empty() {
+            Panel::top("messages").frame(slim).show(ui, |ui| messages::show(ui, state));
+        }
+        Panel::bottom("status bar").frame(slim).show(ui, |ui| status_bar::show(ui, state, live, self.ui_ms));
+        let body = Frame::central_panel(ui.style()).inner_margin(Margin::symmetric(10, 8));
+        if state.maximised == Maximised::Pyramid {
+            CentralPanel::default().frame(body).show(ui, |ui| pyramid::show(ui, state, live, pictures));
+            return;
+        }
+        if state.maximised == Maximised::None {
+            let room = ui.available_size();
+            if state.prefs.inspector_open {
+                let panel = Panel::right("inspector")
+                    .frame(body)
+                    .default_size((room.x * 0.45).min(470.0))
+                    .size_range(360.0..=(room.x * 0.6).max(360.0));
+                panel.show(ui, |ui| inspector::show(ui, state, live));
+            }
+            if state.prefs.pyramid_open {
+                let panel = Panel::bottom("pyramid").frame(body).resizable(true).default_size(310.0);
+                panel.size_range(130.0..=(room.y * 0.75).max(130.0)).show(ui, |ui| pyramid::show(ui, state, live, pictures));
+            }
+        }
+        self.image = CentralPanel::default().frame(body).show(ui, |ui| image_view::show(ui, state, live, pictures)).inner;
+    }
+
+    /// Files dropped on the window, and the invitation to drop them.
+    fn drops(&mut self, ui: &Ui) {
+        for file in ui.input(|input| input.raw.dropped_files.clone()) {
+            let path = file.path();
+            let known = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("glb") || end.eq_ignore_ascii_case("gltf"));
+            let name = path.display().to_string();
+            if known {
+                self.state.open_scene = Some(name);
+            } else {
+                self.state.tell(true, fill(self.state.say(Text::NotAScene), &[&name]));
+            }
+        }
+        if ui.input(|input| !input.raw.hovered_files.is_empty()) {
+            let screen = ui.content_rect();
+            let painter = ui.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop")));
+            painter.rect_filled(screen, 0.0, egui::Color32::from_black_alpha(170));
+            let font = egui::FontId::proportional(24.0);
+            painter.text(screen.center(), Align2::CENTER_CENTER, self.state.say(Text::DropHere), font, egui::Color32::WHITE);
+        }
+    }
+}
+
+impl eframe::App for App {
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        theme::choose(ctx, self.state.prefs.dark);
+        self.sync(ctx);
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        let start = Instant::now();
+        keys::obey(ui.ctx(), &mut self.state, image_view::id());
+        self.pictures.collect(ui.ctx());
+        self.drops(ui);
+        self.panels(ui);
+        help::show(ui.ctx(), &mut self.state);
+        keys::release_after_click(ui.ctx());
+        // What was changed just now is on its way before the next pass.
+        let ctx = ui.ctx().clone();
+        self.sync(&ctx);
+        // Smoothed, so that it can be read.
+        self.ui_ms += 0.1 * (start.elapsed().as_secs_f32() * 1e3 - self.ui_ms);
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        eframe::set_value(storage, PREFERENCES, &self.state.prefs);
+    }
+}

@@ -1,0 +1,162 @@
+//! One cell of the pyramid: the strategy's image, its role, its share of the energy and its two switches.
+
+use super::format;
+use super::live::Live;
+use super::pictures::Pictures;
+use super::state::State;
+use super::text::{Text, fill};
+use super::theme;
+use super::widgets::{Icon, IconToggle, cell_text, full_name, icon_toggle, pair, role_help, role_name};
+use crate::bdpt::Strategy;
+use crate::engine::Thumbnail;
+use eframe::egui::epaint::RectShape;
+use eframe::egui::{
+    self, Align2, Color32, CornerRadius, FontId, Pos2, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo,
+    pos2, vec2,
+};
+
+/// Height of the two lines below the picture.
+const CAPTION: f32 = 35.0;
+
+/// The size of a cell whose picture is `width` wide.
+pub fn size(width: f32, aspect: f32) -> Vec2 {
+    vec2(width, (width * aspect).clamp(30.0, 2.0 * width) + CAPTION)
+}
+
+/// What a cell has to show.
+struct Content<'a> {
+    strategy: Strategy,
+    thumbnail: Option<&'a Thumbnail>,
+    hidden: bool,
+    removed: bool,
+}
+
+impl Content<'_> {
+    /// Why there is no picture.
+    fn empty(&self, state: &State) -> Option<&'static str> {
+        match self.thumbnail {
+            _ if self.removed => Some(state.say(Text::CellRemoved)),
+            None => Some(state.say(Text::CellWaiting)),
+            Some(thumbnail) if thumbnail.share <= 0.0 => Some(state.say(Text::CellNothing)),
+            Some(_) => None,
+        }
+    }
+}
+
+/// Shows a cell.
+pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures, strategy: Strategy, size: Vec2) {
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let frame = live.frame();
+    let content = Content {
+        strategy,
+        thumbnail: frame.and_then(|frame| frame.thumbnails.iter().find(|x| x.strategy == strategy)),
+        hidden: state.hidden.contains(strategy),
+        removed: !state.settings.strategies.contains(strategy),
+    };
+    let chosen = state.selection.strategy == strategy;
+    let spoken = spoken(state, &content);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &spoken));
+    if response.clicked() {
+        state.select_strategy(strategy);
+    }
+    let picture = Rect::from_min_max(rect.min, pos2(rect.right(), rect.bottom() - CAPTION));
+    if ui.is_rect_visible(rect) {
+        let visible = frame.filter(|_| content.empty(state).is_none());
+        let texture = visible.and_then(|frame| pictures.texture(state, frame, live.frame_number(), Some(strategy)));
+        paint(ui, state, &content, picture, texture);
+        caption(ui, state, &content, rect.with_min_y(picture.bottom()));
+        outline(ui, rect, chosen, &response);
+    }
+    tooltip(state, &content, response);
+    switches(ui, state, strategy, picture);
+}
+
+fn spoken(state: &State, content: &Content<'_>) -> String {
+    let name = full_name(content.strategy, state.prefs.lang);
+    let share = content.thumbnail.map_or(0.0, |x| x.share);
+    match content.empty(state) {
+        Some(why) => format!("{name}: {why}"),
+        None => format!("{name}: {}", format::percent(share)),
+    }
+}
+
+fn paint(ui: &Ui, state: &State, content: &Content<'_>, picture: Rect, texture: Option<egui::TextureId>) {
+    let painter = ui.painter();
+    let round = CornerRadius { nw: 5, ne: 5, sw: 0, se: 0 };
+    painter.rect_filled(picture, round, if content.removed { theme::faint(ui.visuals()) } else { Color32::BLACK });
+    if let Some(texture) = texture {
+        let tint = if content.hidden { Color32::from_gray(70) } else { Color32::WHITE };
+        let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
+        painter.add(RectShape::filled(picture, round, tint).with_texture(texture, whole));
+    }
+    let words = content.empty(state).or(content.hidden.then(|| state.say(Text::CellHidden)));
+    if let Some(words) = words {
+        let colour = if content.removed { ui.visuals().text_color() } else { Color32::from_gray(0xd0) };
+        let galley = painter.layout(words.to_owned(), FontId::proportional(12.0), colour, picture.width() - 10.0);
+        let lower = pos2(picture.center().x, picture.center().y + 8.0);
+        let min = Align2::CENTER_CENTER.anchor_size(lower, galley.size()).min;
+        painter.with_clip_rect(picture.intersect(painter.clip_rect())).galley(min, galley, colour);
+    }
+}
+
+fn caption(ui: &Ui, state: &State, content: &Content<'_>, rect: Rect) {
+    let (painter, visuals) = (ui.painter(), ui.visuals());
+    painter.rect_filled(rect, CornerRadius { nw: 0, ne: 0, sw: 5, se: 5 }, visuals.faint_bg_color);
+    let inner = rect.shrink2(vec2(5.0, 1.5));
+    let (top, bottom) = inner.split_top_bottom_at_fraction(0.5);
+    let colour = if content.hidden || content.removed { visuals.weak_text_color() } else { visuals.text_color() };
+    cell_text(painter, top, &role_name(content.strategy, state.prefs.lang), FontId::proportional(12.0), colour);
+    cell_text(painter, bottom, &pair(content.strategy), FontId::proportional(11.5), visuals.weak_text_color());
+    if let Some(thumbnail) = content.thumbnail.filter(|x| x.share > 0.0 && !content.removed) {
+        let at = pos2(bottom.right(), bottom.center().y);
+        painter.text(at, Align2::RIGHT_CENTER, format::percent(thumbnail.share), FontId::proportional(12.0), colour);
+    }
+}
+
+fn outline(ui: &Ui, rect: Rect, chosen: bool, response: &Response) {
+    let line = ui.visuals().widgets.noninteractive.bg_stroke;
+    let stroke = match (chosen, response.has_focus(), response.hovered()) {
+        (true, ..) => Stroke::new(2.5, theme::SELECTED),
+        (_, true, _) => Stroke::new(2.0, ui.visuals().selection.stroke.color),
+        (_, _, true) => Stroke::new(1.0, theme::SELECTED),
+        _ => line,
+    };
+    ui.painter().rect_stroke(rect, CornerRadius::same(5), stroke, StrokeKind::Inside);
+}
+
+fn tooltip(state: &State, content: &Content<'_>, response: Response) {
+    response.on_hover_ui(|ui| {
+        ui.label(RichText::new(full_name(content.strategy, state.prefs.lang)).strong());
+        ui.label(state.say(role_help(content.strategy.role())));
+        if let Some(thumbnail) = content.thumbnail {
+            ui.label(fill(state.say(Text::ShareOfEnergy), &[&format::percent(thumbnail.share)]));
+        }
+        if let Some(why) = content.empty(state) {
+            ui.label(RichText::new(why).weak());
+        }
+    });
+}
+
+/// Hide and remove, in the picture's upper corners.
+fn switches(ui: &mut Ui, state: &mut State, strategy: Strategy, picture: Rect) {
+    let button = vec2(22.0, 19.0);
+    let name = full_name(strategy, state.prefs.lang);
+    let removed = !state.settings.strategies.contains(strategy);
+    let hidden = state.hidden.contains(strategy);
+    let at = Rect::from_min_size(picture.min + vec2(4.0, 4.0), button);
+    let label = format!("{name}: {}", state.say(Text::Hide));
+    let id = ui.scope_id().with(("hide", strategy));
+    let response = icon_toggle(ui, IconToggle { rect: at, id, icon: Icon::Eye, on: !hidden, enabled: !removed, name: &label });
+    if response.clicked() {
+        state.hidden.set(strategy, !hidden);
+    }
+    response.on_hover_text(format!("{label}\n{}", state.say(Text::HelpHide)));
+    let at = Rect::from_min_size(pos2(picture.right() - button.x - 4.0, picture.top() + 4.0), button);
+    let label = format!("{name}: {}", state.say(Text::Remove));
+    let id = ui.scope_id().with(("remove", strategy));
+    let response = icon_toggle(ui, IconToggle { rect: at, id, icon: Icon::TakeOut, on: !removed, enabled: true, name: &label });
+    if response.clicked() {
+        state.settings.strategies.set(strategy, removed);
+    }
+    response.on_hover_text(format!("{label}\n{}", state.say(Text::HelpRemove)));
+}

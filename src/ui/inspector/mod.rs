@@ -1,0 +1,72 @@
+//! The inspector: how the selected sample of the selected pixel was made.
+
+mod path;
+mod splits;
+mod strategies;
+
+use super::keys::{self, Action};
+use super::live::Live;
+use super::state::{State, Tab};
+use super::text::{Text, fill};
+use super::widgets::{full_name, labelled};
+use eframe::egui::{self, DragValue, RichText, ScrollArea, Ui};
+
+/// Shows the inspector.
+pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
+    header(ui, state, live);
+    ui.separator();
+    let Some(record) = live.record(state).cloned() else {
+        let text = live.record_error().unwrap_or(state.say(Text::NoRecord));
+        ui.label(RichText::new(text).weak());
+        return;
+    };
+    ScrollArea::vertical().id_salt(("inspector", state.prefs.tab)).auto_shrink(false).show(ui, |ui| match state.prefs.tab {
+        Tab::Strategies => strategies::show(ui, state, &record),
+        Tab::Path => path::show(ui, state, &record),
+        Tab::Splits => splits::show(ui, state, &record),
+    });
+}
+
+fn header(ui: &mut Ui, state: &mut State, live: &Live) {
+    let [x, y] = state.selection.pixel.map(|v| v.to_string());
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(fill(state.say(Text::InspectorTitle), &[&x, &y])).heading());
+    });
+    ui.horizontal_wrapped(|ui| {
+        let hint = keys::hint(state, Text::KeySample, Action::Sample);
+        let name = state.say(Text::Sample);
+        labelled(ui, name, &hint, |ui| ui.add(DragValue::new(&mut state.selection.sample).speed(0.1)));
+        if ui.add_enabled(state.selection.sample > 0, egui::Button::new(state.say(Text::Previous))).on_hover_text(hint.as_str()).clicked() {
+            keys::step_sample(state, true);
+        }
+        if ui.button(state.say(Text::Next)).on_hover_text(hint.as_str()).clicked() {
+            keys::step_sample(state, false);
+        }
+        if let Some(record) = live.record(state) {
+            let feasible = record.strategies.iter().filter(|x| x.feasible).count().to_string();
+            let all = record.strategies.len().to_string();
+            ui.label(RichText::new(fill(state.say(Text::FeasibleCount), &[&feasible, &all])).weak());
+        }
+    });
+    ui.horizontal_wrapped(|ui| {
+        for (tab, text, help) in [
+            (Tab::Strategies, Text::TabStrategies, Text::HelpTabStrategies),
+            (Tab::Path, Text::TabPath, Text::HelpTabPath),
+            (Tab::Splits, Text::TabSplits, Text::HelpTabSplits),
+        ] {
+            let label = state.say(text);
+            ui.selectable_value(&mut state.prefs.tab, tab, label).on_hover_text(state.say(help));
+        }
+    });
+}
+
+/// The line that names the selected strategy, on the pages that are about it.
+fn about(ui: &mut Ui, state: &State) {
+    let strategy = state.selection.strategy;
+    let edges = strategy.edges().to_string();
+    ui.horizontal_wrapped(|ui| {
+        ui.colored_label(super::theme::SELECTED, "■");
+        ui.label(RichText::new(full_name(strategy, state.prefs.lang)).strong());
+        ui.label(RichText::new(fill(state.say(Text::PathOfLength), &[&edges])).weak());
+    });
+}

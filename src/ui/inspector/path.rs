@@ -1,0 +1,146 @@
+//! The path page: every vertex of the selected strategy's full path, or of either subpath, with its densities.
+
+use crate::bdpt::record::{PathRecord, PathVertexRecord, StrategyRecord, SubpathRecord, VertexRecord};
+use crate::ui::format::{self, indexed, position, rgb, sci, unit};
+use crate::ui::state::{State, Walk};
+use crate::ui::text::{Text, end_text, fill, reason_text};
+use crate::ui::theme;
+use eframe::egui::{Color32, CornerRadius, Frame, Grid, Margin, RichText, Role, Sense, Stroke, Ui, UiBuilder, WidgetInfo, vec2};
+
+/// Shows the page.
+pub fn show(ui: &mut Ui, state: &mut State, record: &PathRecord) {
+    ui.horizontal_wrapped(|ui| {
+        for (walk, text) in [(Walk::Full, Text::WalkFull), (Walk::Light, Text::WalkLight), (Walk::Eye, Text::WalkEye)] {
+            let label = state.say(text);
+            ui.selectable_value(&mut state.walk, walk, label);
+        }
+    });
+    match state.walk {
+        Walk::Full => match record.strategies.iter().find(|x| x.strategy() == state.selection.strategy) {
+            Some(strategy) => full(ui, state, strategy),
+            None => {
+                ui.label(RichText::new(state.say(Text::NotInRecord)).weak());
+            }
+        },
+        Walk::Light => subpath(ui, state, 'y', theme::LIGHT, &record.light),
+        Walk::Eye => subpath(ui, state, 'z', theme::EYE, &record.eye),
+    }
+}
+
+fn full(ui: &mut Ui, state: &mut State, strategy: &StrategyRecord) {
+    super::about(ui, state);
+    if let Some(reason) = strategy.reason {
+        ui.label(RichText::new(reason_text(reason, state.prefs.lang)).weak());
+    }
+    let s = strategy.s as usize;
+    for (index, vertex) in strategy.vertices.iter().enumerate() {
+        let own = if index < s { indexed('y', index) } else { indexed('z', strategy.vertices.len() - 1 - index) };
+        let colour = if index < s { theme::LIGHT } else { theme::EYE };
+        let title = format!("{} = {own}", indexed('x', index));
+        let clicked = card(ui, state.selection.vertex == index, &title, |ui| {
+            head(ui, state, &title, colour, &vertex.vertex);
+            full_numbers(ui, state, index, vertex);
+        });
+        if clicked {
+            state.selection.vertex = index;
+        }
+        if index + 1 == s && index + 1 < strategy.vertices.len() {
+            ui.horizontal(|ui| {
+                ui.colored_label(theme::SELECTED, "↕");
+                let term = rgb(strategy.connection_term);
+                ui.label(RichText::new(fill(state.say(Text::ConnectionHere), &[&term])).small());
+            });
+        }
+    }
+}
+
+fn subpath(ui: &mut Ui, state: &State, name: char, colour: Color32, subpath: &SubpathRecord) {
+    for (index, vertex) in subpath.vertices.iter().enumerate() {
+        let title = indexed(name, index);
+        card(ui, false, &title, |ui| {
+            head(ui, state, &title, colour, vertex);
+            grid(ui, (name, index), |ui| {
+                common_rows(ui, state, vertex);
+                row(ui, state.say(Text::PdfFwd), &density(vertex.pdf_fwd, vertex), state.say(Text::HelpPdfFwd));
+                let reverse = vertex.pdf_rev.map_or("–".to_owned(), |p| density(p, vertex));
+                row(ui, state.say(Text::PdfRev), &reverse, state.say(Text::HelpPdfRev));
+            });
+        });
+    }
+    ui.label(RichText::new(end_text(subpath.end, state.prefs.lang)).weak());
+}
+
+/// A frame around a vertex that can be clicked; says whether it was.
+fn card(ui: &mut Ui, chosen: bool, name: &str, add: impl FnOnce(&mut Ui)) -> bool {
+    let visuals = ui.visuals();
+    let fill = if chosen { theme::selected_ground(visuals) } else { visuals.faint_bg_color };
+    let stroke = if chosen { Stroke::new(1.5, theme::SELECTED) } else { Stroke::NONE };
+    let frame = Frame::new().fill(fill).stroke(stroke).corner_radius(CornerRadius::same(5)).inner_margin(Margin::symmetric(8, 6));
+    // The click is felt behind the numbers, so that their tooltips still work.
+    let builder = UiBuilder::new().id_salt(("vertex", name)).sense(Sense::click());
+    let response = ui.scope_builder(builder, |ui| {
+        frame.show(ui, |ui| {
+            ui.set_min_width(ui.available_width());
+            add(ui);
+        })
+    });
+    let response = response.response;
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, name));
+    response.clicked()
+}
+
+fn head(ui: &mut Ui, state: &State, title: &str, colour: Color32, vertex: &VertexRecord) {
+    ui.horizontal_wrapped(|ui| {
+        let (rect, _) = ui.allocate_exact_size(vec2(10.0, 10.0), Sense::hover());
+        if colour == theme::LIGHT {
+            ui.painter().rect_filled(rect, CornerRadius::ZERO, colour);
+        } else {
+            ui.painter().circle_filled(rect.center(), 5.0, colour);
+        }
+        ui.label(RichText::new(title).strong());
+        let what = match vertex.kind {
+            "lens" => state.say(Text::KindLens),
+            "light" => state.say(Text::KindLight),
+            _ => state.say(Text::KindSurface),
+        };
+        let material = vertex.material.iter().map(String::as_str).chain(vertex.model).collect::<Vec<_>>().join(", ");
+        ui.label(if material.is_empty() { what.to_owned() } else { format!("{what} · {material}") });
+        if vertex.emitter && vertex.kind == "surface" {
+            ui.label(RichText::new(state.say(Text::Emitter)).small().weak());
+        }
+        if vertex.delta {
+            ui.label(RichText::new("δ").strong()).on_hover_text(state.say(Text::HelpDelta));
+        }
+    });
+}
+
+fn full_numbers(ui: &mut Ui, state: &State, index: usize, vertex: &PathVertexRecord) {
+    grid(ui, ('x', index), |ui| {
+        common_rows(ui, state, &vertex.vertex);
+        let written = |p: Option<f32>| p.map_or("–".to_owned(), |p| density(p, &vertex.vertex));
+        row(ui, "p_light", &written(vertex.p_light), state.say(Text::HelpPLight));
+        row(ui, "p_eye", &written(vertex.p_eye), state.say(Text::HelpPEye));
+    });
+}
+
+fn common_rows(ui: &mut Ui, state: &State, vertex: &VertexRecord) {
+    row(ui, state.say(Text::Position), &format!("{} m", position(vertex.position)), state.say(Text::HelpPosition));
+    row(ui, "α", &rgb(vertex.alpha), state.say(Text::HelpAlpha));
+    if vertex.survival < 1.0 {
+        row(ui, "q", &format::weight(f64::from(vertex.survival)), state.say(Text::HelpSurvival));
+    }
+}
+
+fn grid(ui: &mut Ui, salt: (char, usize), add: impl FnOnce(&mut Ui)) {
+    Grid::new(salt).num_columns(2).min_col_width(64.0).spacing(vec2(10.0, 2.0)).show(ui, add);
+}
+
+fn row(ui: &mut Ui, name: &str, value: &str, help: &str) {
+    ui.label(RichText::new(name).small().weak()).on_hover_text(help);
+    ui.label(RichText::new(value).monospace());
+    ui.end_row();
+}
+
+fn density(value: f32, vertex: &VertexRecord) -> String {
+    format!("{} {}", sci(f64::from(value)), unit(vertex.measure)).trim_end().to_owned()
+}

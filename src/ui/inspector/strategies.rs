@@ -1,0 +1,175 @@
+//! The strategies table: a row per (s,t) with its weight and contribution, or with why it has none.
+
+use crate::bdpt::Strategy;
+use crate::bdpt::record::{PathRecord, StrategyRecord};
+use crate::ui::state::{Sort, State};
+use crate::ui::text::{Text, fill, reason_short, reason_text};
+use crate::ui::widgets::{bar, cell_text, full_name, pair, role_help, role_name, swatch};
+use crate::ui::{format, pictures, theme};
+use eframe::egui::{self, CornerRadius, FontId, Rect, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+
+const ROW: f32 = 24.0;
+
+/// Left edges of the columns of a row.
+struct Columns {
+    role: Rect,
+    weight: Rect,
+    contribution: Rect,
+    raster: Rect,
+}
+
+impl Columns {
+    fn of(row: Rect) -> Self {
+        let x = |fraction: f32| row.left() + 8.0 + (row.width() - 16.0) * fraction;
+        let column = |from: f32, to: f32| Rect::from_min_max(pos2(x(from), row.top()), pos2(x(to) - 6.0, row.bottom()));
+        Self { role: column(0.0, 0.39), weight: column(0.39, 0.63), contribution: column(0.63, 0.83), raster: column(0.83, 1.02) }
+    }
+}
+
+/// Shows the table.
+pub fn show(ui: &mut Ui, state: &mut State, record: &PathRecord) {
+    sort_buttons(ui, state);
+    ui.spacing_mut().item_spacing.y = 1.0;
+    heads(ui, state);
+    let mut rows: Vec<&StrategyRecord> = record.strategies.iter().collect();
+    match state.prefs.sort {
+        Sort::Length => {}
+        Sort::Weight => rows.sort_by(|a, b| b.mis_weight.total_cmp(&a.mis_weight)),
+        Sort::Contribution => rows.sort_by(|a, b| format::luminance(b.contribution).total_cmp(&format::luminance(a.contribution))),
+    }
+    let mut edges = 0;
+    for strategy in rows {
+        if state.prefs.sort == Sort::Length && strategy.strategy().edges() != edges {
+            edges = strategy.strategy().edges();
+            ui.add_space(4.0);
+            ui.label(RichText::new(fill(state.say(Text::LengthGroup), &[&edges.to_string()])).small().weak());
+        }
+        row(ui, state, strategy);
+    }
+}
+
+fn sort_buttons(ui: &mut Ui, state: &mut State) {
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(state.say(Text::SortBy)).weak());
+        for (sort, text) in
+            [(Sort::Length, Text::SortLength), (Sort::Weight, Text::SortWeight), (Sort::Contribution, Text::SortContribution)]
+        {
+            let label = state.say(text);
+            ui.selectable_value(&mut state.prefs.sort, sort, label);
+        }
+    });
+}
+
+fn heads(ui: &mut Ui, state: &State) {
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 20.0), Sense::hover());
+    let columns = Columns::of(rect);
+    let heads = [
+        (columns.role, Text::HeadStrategy),
+        (columns.weight, Text::HeadWeight),
+        (columns.contribution, Text::HeadContribution),
+        (columns.raster, Text::HeadLandsAt),
+    ];
+    for (column, text) in heads {
+        cell_text(ui.painter(), column, state.say(text), FontId::proportional(12.0), ui.visuals().weak_text_color());
+    }
+}
+
+fn row(ui: &mut Ui, state: &mut State, record: &StrategyRecord) {
+    let strategy = record.strategy();
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+    let chosen = strategy == state.selection.strategy;
+    let spoken = spoken(state, record);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &spoken));
+    if response.clicked() {
+        state.select_strategy(strategy);
+    }
+    if ui.is_rect_visible(rect) {
+        paint(ui, state, record, rect, &response);
+    }
+    let lang = state.prefs.lang;
+    response.on_hover_ui(|ui| {
+        ui.label(RichText::new(full_name(strategy, lang)).strong());
+        ui.label(role_help(strategy.role()).in_language(lang));
+        match record.reason {
+            Some(reason) => {
+                ui.label(reason_text(reason, lang));
+            }
+            None => numbers(ui, state, record),
+        }
+    });
+}
+
+/// What a screen reader says for a row.
+fn spoken(state: &State, record: &StrategyRecord) -> String {
+    let name = full_name(record.strategy(), state.prefs.lang);
+    let rest = match record.reason {
+        Some(reason) => reason_short(reason, state.prefs.lang).to_owned(),
+        None => fill(state.say(Text::SpokenWeight), &[&format::weight(f64::from(record.mis_weight))]),
+    };
+    format!("{name}: {rest}")
+}
+
+fn paint(ui: &Ui, state: &State, record: &StrategyRecord, rect: Rect, response: &Response) {
+    let (painter, visuals) = (ui.painter(), ui.visuals());
+    let chosen = record.strategy() == state.selection.strategy;
+    if chosen || response.hovered() || response.has_focus() {
+        let ground = if chosen { theme::selected_ground(visuals) } else { visuals.widgets.hovered.weak_bg_fill };
+        painter.rect_filled(rect, CornerRadius::same(4), ground);
+    }
+    if chosen {
+        painter.rect_filled(Rect::from_min_size(rect.min, vec2(3.0, rect.height())), CornerRadius::same(1), theme::SELECTED);
+    }
+    let columns = Columns::of(rect);
+    let (text, weak) = (visuals.text_color(), visuals.weak_text_color());
+    let colour = if record.feasible { text } else { weak };
+    name_column(ui, state, record.strategy(), columns.role, colour);
+    let small = FontId::monospace(12.0);
+    if let Some(reason) = record.reason.filter(|_| !record.feasible) {
+        let wide = Rect::from_min_max(columns.weight.min, columns.raster.max);
+        cell_text(painter, wide, reason_short(reason, state.prefs.lang), FontId::proportional(12.5), weak);
+        return;
+    }
+    let weight = f64::from(record.mis_weight);
+    let middle = columns.weight.center().y;
+    let number = 46.0;
+    let gauge = Rect::from_min_max(pos2(columns.weight.left(), middle - 4.0), pos2(columns.weight.right() - number, middle + 4.0));
+    bar(painter, visuals, gauge, record.mis_weight, theme::bar(visuals));
+    cell_text(painter, columns.weight.with_min_x(gauge.right() + 6.0), &format::weight(weight), small.clone(), text);
+    let square = Rect::from_center_size(pos2(columns.contribution.left() + 7.0, middle), vec2(13.0, 13.0));
+    swatch(painter, visuals, square, pictures::hue(record.contribution));
+    let luminance = format!("{:.2e}", format::luminance(record.contribution));
+    cell_text(painter, columns.contribution.with_min_x(square.right() + 6.0), &luminance, small.clone(), text);
+    if let Some([x, y]) = record.raster.filter(|_| !record.strategy().stays_in_pixel()) {
+        cell_text(painter, columns.raster, &format!("{},{}", x.floor(), y.floor()), small, weak);
+    }
+}
+
+fn name_column(ui: &Ui, state: &State, strategy: Strategy, column: Rect, colour: egui::Color32) {
+    let painter = ui.painter();
+    let name = role_name(strategy, state.prefs.lang);
+    let galley = painter.layout_no_wrap(name, FontId::proportional(13.5), colour);
+    let width = galley.size().x;
+    painter.with_clip_rect(column).galley(pos2(column.left(), column.center().y - galley.size().y / 2.0), galley, colour);
+    let rest = column.with_min_x((column.left() + width + 6.0).min(column.right()));
+    cell_text(painter, rest, &pair(strategy), FontId::proportional(12.5), ui.visuals().weak_text_color());
+}
+
+fn numbers(ui: &mut Ui, state: &State, record: &StrategyRecord) {
+    egui::Grid::new("numbers").num_columns(2).spacing(vec2(14.0, 3.0)).show(ui, |ui| {
+        let mut line = |name: Text, value: String| {
+            ui.label(state.say(name));
+            ui.label(RichText::new(value).monospace());
+            ui.end_row();
+        };
+        line(Text::NumberWeight, format::sci(f64::from(record.mis_weight)));
+        line(Text::NumberContribution, format::rgb(record.contribution));
+        line(Text::NumberUnweighted, format::rgb(record.contribution_unweighted));
+        line(Text::NumberConnection, format::rgb(record.connection_term));
+        if let Some(p) = record.p {
+            line(Text::NumberDensity, format!("10^{p:.3}"));
+        }
+        if let Some([x, y]) = record.raster {
+            line(Text::NumberRaster, format!("{x:.2}  {y:.2}"));
+        }
+    });
+}

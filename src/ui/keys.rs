@@ -1,0 +1,182 @@
+//! Every key, in one table: it is what the program obeys, what the help window lists and what tooltips quote.
+
+use super::state::{Placement, State};
+use super::text::Text;
+use crate::bdpt::Strategy;
+use eframe::egui;
+use eframe::egui::Key;
+
+/// What a key does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    /// Exposure up or down half an EV.
+    Exposure,
+    /// The selected pixel moves by one.
+    Nudge,
+    /// The next or previous sample.
+    Sample,
+    /// A strategy of the current path length, by its number.
+    Strategy,
+    /// The next or previous vertex of the selected path.
+    Vertex,
+    /// The image fits its panel.
+    Fit,
+    /// View, exposure and tone map as at the start.
+    ResetView,
+    /// Pause or go on.
+    Pause,
+    /// Hide or show the selected strategy.
+    Hide,
+    /// The list of keys.
+    Help,
+}
+
+/// A row of the table.
+pub struct Binding {
+    /// What it does.
+    pub action: Action,
+    /// The keys, as they are written.
+    pub shown: &'static str,
+    /// What it does, in words.
+    pub text: Text,
+    keys: &'static [Key],
+    /// Does Shift turn it round (or enlarge the step)?
+    shift: bool,
+}
+
+/// The digits' order is the order of the strategies, the arrows' is left, right, up, down.
+pub const TABLE: &[Binding] = &[
+    Binding { action: Action::Nudge, shown: "←  →  ↑  ↓", text: Text::KeyNudge, keys: ARROWS, shift: true },
+    Binding { action: Action::Sample, shown: "N, Shift+N", text: Text::KeySample, keys: &[Key::N], shift: true },
+    Binding { action: Action::Strategy, shown: "1 … 9", text: Text::KeyStrategy, keys: DIGITS, shift: false },
+    Binding { action: Action::Vertex, shown: "Space, Shift+Space", text: Text::KeyVertex, keys: &[Key::Space], shift: true },
+    Binding { action: Action::Hide, shown: "H", text: Text::KeyHide, keys: &[Key::H], shift: false },
+    Binding { action: Action::Exposure, shown: "E, Shift+E", text: Text::KeyExposure, keys: &[Key::E], shift: true },
+    Binding { action: Action::Fit, shown: "F", text: Text::KeyFit, keys: &[Key::F], shift: false },
+    Binding { action: Action::ResetView, shown: "R", text: Text::KeyReset, keys: &[Key::R], shift: false },
+    Binding { action: Action::Pause, shown: "P", text: Text::KeyPause, keys: &[Key::P], shift: false },
+    Binding { action: Action::Help, shown: "?", text: Text::KeyHelp, keys: &[Key::Questionmark], shift: true },
+];
+
+const ARROWS: &[Key] = &[Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown];
+const DIGITS: &[Key] = &[Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
+
+/// A tooltip: the words, and the keys that do the same.
+pub fn hint(state: &State, text: Text, action: Action) -> String {
+    let keys = TABLE.iter().find(|row| row.action == action).map_or("", |row| row.shown);
+    format!("{}  [{keys}]", state.say(text))
+}
+
+/// Obeys the keys pressed in this pass. A text field with the focus gets them all; a focused widget keeps Space and the arrows.
+pub fn obey(ctx: &egui::Context, state: &mut State, image: egui::Id) {
+    if ctx.text_edit_focused() {
+        return;
+    }
+    let elsewhere = ctx.memory(|memory| memory.focused()).is_some_and(|id| id != image);
+    for row in TABLE {
+        if elsewhere && matches!(row.action, Action::Nudge | Action::Vertex) {
+            continue;
+        }
+        for (index, key) in row.keys.iter().enumerate() {
+            let pressed = ctx.input(|input| {
+                let plain = !input.modifiers.ctrl && !input.modifiers.alt && !input.modifiers.command;
+                (plain && input.key_pressed(*key) && (row.shift || !input.modifiers.shift)).then_some(input.modifiers.shift)
+            });
+            if let Some(shift) = pressed {
+                perform(state, row.action, index, shift);
+            }
+        }
+    }
+    if state.help && ctx.input(|input| input.key_pressed(Key::Escape)) {
+        state.help = false;
+    }
+}
+
+/// A click leaves the keyboard to the image; only a text field keeps it. (Tab still goes anywhere.)
+pub fn release_after_click(ctx: &egui::Context) {
+    if ctx.input(|input| input.pointer.any_click()) && !ctx.text_edit_focused() {
+        ctx.memory_mut(|memory| {
+            if let Some(id) = memory.focused() {
+                memory.surrender_focus(id);
+            }
+        });
+    }
+}
+
+/// Does it.
+pub fn perform(state: &mut State, action: Action, index: usize, shift: bool) {
+    match action {
+        Action::Exposure => state.exposure = (state.exposure + if shift { -0.5 } else { 0.5 }).clamp(-20.0, 20.0),
+        Action::Nudge => nudge(state, index, if shift { 10 } else { 1 }),
+        Action::Sample => step_sample(state, shift),
+        Action::Strategy => {
+            let k = state.selection.strategy.edges();
+            if (index as u32) <= k {
+                state.select_strategy(Strategy::new(index as u32, k + 1 - index as u32));
+            }
+        }
+        Action::Vertex => {
+            let count = state.selection.strategy.edges() as usize + 1;
+            state.selection.vertex = (state.selection.vertex + if shift { count - 1 } else { 1 }) % count;
+        }
+        Action::Fit => state.placement = Placement::Fit,
+        Action::ResetView => {
+            state.placement = Placement::Fit;
+            state.exposure = 0.0;
+            state.tonemap = crate::film::tonemap::ToneMap::Srgb;
+        }
+        Action::Pause => state.paused = !state.paused,
+        Action::Hide => {
+            let strategy = state.selection.strategy;
+            state.hidden.set(strategy, !state.hidden.contains(strategy));
+        }
+        Action::Help => state.help = !state.help,
+    }
+}
+
+/// The next sample, or the previous one (there is none before 0).
+pub fn step_sample(state: &mut State, back: bool) {
+    let sample = &mut state.selection.sample;
+    *sample = if back { sample.saturating_sub(1) } else { sample.saturating_add(1) };
+}
+
+fn nudge(state: &mut State, arrow: usize, step: i64) {
+    let [x, y] = state.selection.pixel.map(i64::from);
+    let (dx, dy) = [(-step, 0), (step, 0), (0, -step), (0, step)].get(arrow).copied().unwrap_or((0, 0));
+    state.select_pixel(x + dx, y + dy);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::state::Preferences;
+    use super::*;
+
+    #[test]
+    fn every_action_has_one_row_and_every_key_one_action() {
+        let mut keys: Vec<Key> = TABLE.iter().flat_map(|row| row.keys).copied().collect();
+        let count = keys.len();
+        keys.sort_by_key(|key| key.name());
+        keys.dedup();
+        assert_eq!(keys.len(), count);
+    }
+
+    #[test]
+    fn actions_do_what_they_say() {
+        let mut state = State::new(Preferences::default(), [8, 8]);
+        perform(&mut state, Action::Nudge, 1, false);
+        assert_eq!(state.selection.pixel, [5, 4]);
+        perform(&mut state, Action::Nudge, 2, true);
+        assert_eq!(state.selection.pixel, [5, 0]);
+        perform(&mut state, Action::Sample, 0, true);
+        assert_eq!(state.selection.sample, 0);
+        state.select_strategy(Strategy::new(1, 3));
+        perform(&mut state, Action::Strategy, 2, false);
+        assert_eq!(state.selection.strategy, Strategy::new(2, 2));
+        perform(&mut state, Action::Strategy, 8, false);
+        assert_eq!(state.selection.strategy, Strategy::new(2, 2), "there is no ninth strategy of three edges");
+        perform(&mut state, Action::Vertex, 0, true);
+        assert_eq!(state.selection.vertex, 3);
+        perform(&mut state, Action::Vertex, 0, false);
+        assert_eq!(state.selection.vertex, 0);
+    }
+}

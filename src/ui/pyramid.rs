@@ -1,0 +1,135 @@
+//! The (s,t) pyramid: a row per path length, a cell per strategy with its image, its share, and the switches *hide* (leave it
+//! out of the sum, at once) and *remove* (do not run it; the others' weights then cover for it).
+
+use super::cell;
+use super::format;
+use super::live::Live;
+use super::pictures::Pictures;
+use super::state::{Gain, Maximised, State};
+use super::text::{Text, fill};
+use super::widgets::{role_help, role_name};
+use crate::bdpt::{Role, Strategy, StrategySet};
+use eframe::egui::{self, Button, RichText, ScrollArea, Slider, Ui, vec2};
+
+const FAMILIES: [Role; 4] = [Role::EyeHitsLight, Role::NextEvent, Role::Connect, Role::LightTracer];
+const ROW_HEAD: f32 = 108.0;
+const GAP: f32 = 6.0;
+
+/// Shows the pyramid.
+pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures) {
+    ui.horizontal_wrapped(|ui| toolbar(ui, state));
+    ui.horizontal_wrapped(|ui| {
+        families(ui, state);
+        ui.separator();
+        brightness(ui, state);
+    });
+    ui.add_space(2.0);
+    let aspect = state.size[1] as f32 / state.size[0].max(1) as f32;
+    let size = cell::size(state.prefs.cell, aspect);
+    ScrollArea::both().id_salt("pyramid").auto_shrink(false).show(ui, |ui| {
+        ui.spacing_mut().item_spacing = vec2(GAP, GAP);
+        let longest = ROW_HEAD + (state.settings.max_edges + 1) as f32 * (size.x + GAP);
+        let fits = longest <= ui.available_width();
+        for edges in 1..=state.settings.max_edges {
+            ui.horizontal(|ui| {
+                row_head(ui, state, live, edges, size.y);
+                // Each row is centred over the longest one, if that is all in sight.
+                if fits {
+                    ui.add_space((state.settings.max_edges - edges) as f32 * 0.5 * (size.x + GAP));
+                }
+                for strategy in row(edges) {
+                    cell::show(ui, state, live, pictures, strategy, size);
+                }
+            });
+        }
+    });
+}
+
+/// The strategies of a path length.
+fn row(edges: u32) -> impl Iterator<Item = Strategy> {
+    (0..=edges).map(move |s| Strategy::new(s, edges + 1 - s))
+}
+
+fn toolbar(ui: &mut Ui, state: &mut State) {
+    ui.label(RichText::new(state.say(Text::Pyramid)).heading()).on_hover_text(state.say(Text::HelpPyramid));
+    if ui.button(state.say(Text::ShowAll)).on_hover_text(state.say(Text::HelpShowAll)).clicked() {
+        state.hidden = StrategySet::NONE;
+    }
+    if ui.button(state.say(Text::HideAll)).on_hover_text(state.say(Text::HelpHideAll)).clicked() {
+        state.hidden = StrategySet::ALL;
+    }
+    if ui.button(state.say(Text::OnlySelected)).on_hover_text(state.say(Text::HelpOnlySelected)).clicked() {
+        let selected = state.selection.strategy;
+        state.hidden = StrategySet::where_(|x| x != selected);
+    }
+    if ui.button(state.say(Text::RestoreAll)).on_hover_text(state.say(Text::HelpRestoreAll)).clicked() {
+        state.settings.strategies = StrategySet::ALL;
+    }
+    let alone = state.maximised == Maximised::Pyramid;
+    let button = Button::new(state.say(Text::Maximise)).selected(alone);
+    if ui.add(button).on_hover_text(state.say(Text::HelpMaximise)).clicked() {
+        state.maximised = if alone { Maximised::None } else { Maximised::Pyramid };
+    }
+}
+
+fn families(ui: &mut Ui, state: &mut State) {
+    ui.label(state.say(Text::Families));
+    for role in FAMILIES {
+        let member = |x: &Strategy| x.role() == role;
+        let name = match role {
+            Role::Connect => state.say(Text::FamilyConnect).to_owned(),
+            _ => Strategy::all(2).find(member).map(|x| role_name(x, state.prefs.lang)).unwrap_or_default(),
+        };
+        let mut visible = Strategy::all(state.settings.max_edges).filter(member).any(|x| !state.hidden.contains(x));
+        let help = format!("{}\n{}", state.say(role_help(role)), state.say(Text::HelpFamily));
+        let response = ui.toggle_value(&mut visible, name).on_hover_text(help);
+        if response.changed() {
+            if ui.input(|input| input.modifiers.shift) {
+                state.hidden = StrategySet::where_(|x| x.role() != role);
+            } else {
+                Strategy::all(crate::bdpt::MAX_EDGES as u32).filter(member).for_each(|x| state.hidden.set(x, !visible));
+            }
+        }
+    }
+}
+
+fn brightness(ui: &mut Ui, state: &mut State) {
+    ui.label(state.say(Text::Brightness));
+    for (gain, text, help) in [(Gain::Each, Text::GainEach, Text::HelpGainEach), (Gain::Same, Text::GainSame, Text::HelpGainSame)] {
+        let label = state.say(text);
+        ui.selectable_value(&mut state.prefs.gain, gain, label).on_hover_text(Text::in_language(help, state.prefs.lang));
+    }
+    let label = ui.label(state.say(Text::CellSize));
+    ui.spacing_mut().slider_width = 70.0;
+    ui.add(Slider::new(&mut state.prefs.cell, 72.0..=260.0).show_value(false)).labelled_by(label.id);
+}
+
+fn row_head(ui: &mut Ui, state: &mut State, live: &Live, edges: u32, height: f32) {
+    ui.allocate_ui_with_layout(vec2(ROW_HEAD, height), egui::Layout::top_down(egui::Align::Min), |ui| {
+        ui.set_width(ROW_HEAD);
+        ui.spacing_mut().item_spacing = vec2(4.0, 3.0);
+        ui.label(RichText::new(format!("k = {edges}")).strong()).on_hover_text(state.say(Text::HelpRow));
+        let share = live.frame().map(|frame| frame.thumbnails.iter().filter(|x| x.strategy.edges() == edges).map(|x| x.share).sum::<f64>());
+        ui.label(RichText::new(share.map_or(String::new(), format::percent)).small().weak()).on_hover_text(state.say(Text::HelpShare));
+        let visible = row(edges).any(|x| !state.hidden.contains(x));
+        let name = state.say(if visible { Text::HideRow } else { Text::ShowRow });
+        let number = edges.to_string();
+        ui.horizontal(|ui| {
+            let button = ui.button(RichText::new(name).small());
+            button.widget_info(|| named(fill(state.say(Text::RowName), &[&number, name])));
+            if button.clicked() {
+                row(edges).for_each(|x| state.hidden.set(x, visible));
+            }
+            let only = state.say(Text::OnlyRow);
+            let button = ui.button(RichText::new(only).small());
+            button.widget_info(|| named(fill(state.say(Text::RowName), &[&number, only])));
+            if button.clicked() {
+                state.hidden = StrategySet::where_(|x| x.edges() != edges);
+            }
+        });
+    });
+}
+
+fn named(label: String) -> egui::WidgetInfo {
+    egui::WidgetInfo::labeled(egui::Role::Button, true, label)
+}

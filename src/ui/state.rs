@@ -1,0 +1,292 @@
+//! Everything a person can change in the window, as plain data: panels show it and edit it, and nothing else happens here.
+
+use super::text::{Lang, Text};
+use crate::bdpt::{Settings, Strategy, StrategySet};
+use crate::film::tonemap::ToneMap;
+use eframe::egui;
+use serde::{Deserialize, Serialize};
+
+/// What is looked at; every panel follows it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Selection {
+    /// Pixel, from the top left.
+    pub pixel: [u32; 2],
+    /// Sample number.
+    pub sample: u32,
+    /// Strategy.
+    pub strategy: Strategy,
+    /// Vertex x_i of the strategy's full path.
+    pub vertex: usize,
+}
+
+/// How the image is placed in its panel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Placement {
+    /// As large as fits.
+    Fit,
+    /// `zoom` points per pixel, with the image position `centre` (pixels) in the middle.
+    Free {
+        /// Points per pixel.
+        zoom: f32,
+        /// Position in the middle, pixels.
+        centre: egui::Vec2,
+    },
+}
+
+/// What is drawn over the image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Shown {
+    /// The eye subpath.
+    pub eye: bool,
+    /// The light subpath.
+    pub light: bool,
+    /// Connections that carry light.
+    pub connections: bool,
+    /// Connections with something in between.
+    pub blocked: bool,
+    /// Where contributions to other pixels land.
+    pub splats: bool,
+    /// Names of the vertices.
+    pub names: bool,
+    /// The legend.
+    pub legend: bool,
+}
+
+/// How bright a cell of the pyramid is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Gain {
+    /// As the image.
+    Same,
+    /// Each cell by itself.
+    Each,
+}
+
+/// The inspector's pages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Tab {
+    /// One row per strategy.
+    Strategies,
+    /// The vertices of a path.
+    Path,
+    /// The selected path under every strategy that has its length.
+    Splits,
+}
+
+/// The order of the strategies table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Sort {
+    /// Grouped by path length.
+    Length,
+    /// Largest weight first.
+    Weight,
+    /// Largest contribution first.
+    Contribution,
+}
+
+/// Which vertices the path page lists.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Walk {
+    /// x₀…x_k of the selected strategy.
+    Full,
+    /// y₀, y₁, …
+    Light,
+    /// z₀, z₁, …
+    Eye,
+}
+
+/// The panel that has the window for itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Maximised {
+    /// Side by side.
+    None,
+    /// The image.
+    Image,
+    /// The pyramid.
+    Pyramid,
+}
+
+/// What survives a restart of the program.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Preferences {
+    /// Language.
+    pub lang: Lang,
+    /// Dark theme?
+    pub dark: bool,
+    /// What is drawn over the image.
+    pub shown: Shown,
+    /// Brightness of the pyramid's cells.
+    pub gain: Gain,
+    /// Width of a cell of the pyramid, points.
+    pub cell: f32,
+    /// Page of the inspector.
+    pub tab: Tab,
+    /// Order of the strategies table.
+    pub sort: Sort,
+    /// Is the inspector shown?
+    pub inspector_open: bool,
+    /// Is the pyramid shown?
+    pub pyramid_open: bool,
+}
+
+impl Default for Preferences {
+    fn default() -> Self {
+        Self {
+            lang: Lang::En,
+            dark: true,
+            shown: Shown { eye: true, light: true, connections: true, blocked: true, splats: true, names: true, legend: true },
+            gain: Gain::Each,
+            cell: 104.0,
+            tab: Tab::Strategies,
+            sort: Sort::Length,
+            inspector_open: true,
+            pyramid_open: true,
+        }
+    }
+}
+
+/// Something to say to the person, until dismissed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Message {
+    /// Is it a failure (else a note)?
+    pub error: bool,
+    /// The words.
+    pub text: String,
+}
+
+/// Everything a person can change.
+#[derive(Debug)]
+pub struct State {
+    /// What survives a restart.
+    pub prefs: Preferences,
+    /// Scene to load next; taken by whoever loads it.
+    pub open_scene: Option<String>,
+    /// The path typed in the scene menu.
+    pub scene_field: String,
+    /// Film size, pixels.
+    pub size: [u32; 2],
+    /// The estimator's settings.
+    pub settings: Settings,
+    /// Start over from sample 0.
+    pub restart: bool,
+    /// Rendering stands still.
+    pub paused: bool,
+    /// Strategies left out of the sum.
+    pub hidden: StrategySet,
+    /// What is looked at.
+    pub selection: Selection,
+    /// Where the image is.
+    pub placement: Placement,
+    /// Exposure, EV.
+    pub exposure: f32,
+    /// Tone mapping.
+    pub tonemap: ToneMap,
+    /// Vertices listed by the path page.
+    pub walk: Walk,
+    /// The panel that has the window for itself.
+    pub maximised: Maximised,
+    /// Is the list of keys open?
+    pub help: bool,
+    /// What there is to say.
+    pub messages: Vec<Message>,
+}
+
+impl State {
+    /// The state the program starts with.
+    pub fn new(prefs: Preferences, size: [u32; 2]) -> Self {
+        Self {
+            prefs,
+            open_scene: None,
+            scene_field: String::new(),
+            size,
+            settings: Settings::default(),
+            restart: false,
+            paused: false,
+            hidden: StrategySet::NONE,
+            selection: Selection { pixel: [size[0] / 2, size[1] / 2], sample: 0, strategy: Strategy::new(1, 2), vertex: 0 },
+            placement: Placement::Fit,
+            exposure: 0.0,
+            tonemap: ToneMap::Srgb,
+            walk: Walk::Full,
+            maximised: Maximised::None,
+            help: false,
+            messages: Vec::new(),
+        }
+    }
+
+    /// A text in the chosen language.
+    pub fn say(&self, text: Text) -> &'static str {
+        text.in_language(self.prefs.lang)
+    }
+
+    /// Selects a pixel; outside the film, the nearest one.
+    pub fn select_pixel(&mut self, x: i64, y: i64) {
+        let clamp = |v: i64, n: u32| v.clamp(0, i64::from(n.max(1)) - 1) as u32;
+        self.selection.pixel = [clamp(x, self.size[0]), clamp(y, self.size[1])];
+    }
+
+    /// Selects a strategy; the selected vertex stays within its path.
+    pub fn select_strategy(&mut self, strategy: Strategy) {
+        self.selection.strategy = strategy;
+        self.selection.vertex = self.selection.vertex.min(strategy.edges() as usize);
+    }
+
+    /// Changes the film size; the selected pixel stays at the same place of the picture.
+    pub fn resize(&mut self, size: [u32; 2]) {
+        let old = self.size;
+        let [x, y] = [0, 1].map(|i| i64::from(self.selection.pixel[i]) * i64::from(size[i]) / i64::from(old[i].max(1)));
+        self.size = size;
+        self.placement = Placement::Fit;
+        self.select_pixel(x, y);
+    }
+
+    /// Keeps the selection inside what the settings allow.
+    pub fn clamp(&mut self) {
+        self.settings.max_edges = self.settings.max_edges.clamp(1, crate::bdpt::MAX_EDGES as u32);
+        if self.selection.strategy.edges() > self.settings.max_edges {
+            self.select_strategy(Strategy::new(1.min(self.settings.max_edges), self.settings.max_edges));
+        }
+        let [x, y] = self.selection.pixel;
+        self.select_pixel(i64::from(x), i64::from(y));
+    }
+
+    /// Adds a message, once.
+    pub fn tell(&mut self, error: bool, text: String) {
+        let message = Message { error, text };
+        if !self.messages.contains(&message) {
+            self.messages.push(message);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_selection_stays_inside() {
+        let mut state = State::new(Preferences::default(), [64, 32]);
+        state.select_pixel(-5, 900);
+        assert_eq!(state.selection.pixel, [0, 31]);
+        state.select_pixel(32, 16);
+        state.resize([128, 128]);
+        assert_eq!(state.selection.pixel, [64, 64]);
+        state.select_strategy(Strategy::new(3, 4));
+        state.selection.vertex = 6;
+        state.settings.max_edges = 2;
+        state.clamp();
+        assert_eq!(state.selection.strategy.edges(), 2);
+        assert!(state.selection.vertex <= 2);
+        state.settings.max_edges = 0;
+        state.clamp();
+        assert_eq!((state.settings.max_edges, state.selection.strategy.edges()), (1, 1));
+    }
+
+    #[test]
+    fn a_message_is_said_once() {
+        let mut state = State::new(Preferences::default(), [64, 64]);
+        state.tell(true, "no".into());
+        state.tell(true, "no".into());
+        assert_eq!(state.messages.len(), 1);
+    }
+}

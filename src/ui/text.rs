@@ -1,0 +1,125 @@
+//! Every text of the window in English and Simplified Chinese, in one table (`text_table.rs`), switched while the program runs.
+//! A `{}` stands for a value that is filled in, in order.
+
+pub use super::text_table::Text;
+use crate::bdpt::{End, Reason};
+use serde::{Deserialize, Serialize};
+
+/// The window's languages.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Lang {
+    /// English.
+    #[default]
+    En,
+    /// 简体中文.
+    Zh,
+}
+
+/// Puts values in the places of a text, in order.
+pub fn fill(text: &str, values: &[&str]) -> String {
+    let mut parts = text.split("{}");
+    let mut filled = parts.next().unwrap_or_default().to_owned();
+    for (index, part) in parts.enumerate() {
+        filled.push_str(values.get(index).copied().unwrap_or_default());
+        filled.push_str(part);
+    }
+    filled
+}
+
+/// Why a strategy contributes nothing, in a sentence.
+pub fn reason_text(reason: Reason, lang: Lang) -> &'static str {
+    match lang {
+        Lang::En => reason.text(),
+        Lang::Zh => match reason {
+            Reason::LightSubpathTooShort => "光源子路径在得到 s 个顶点之前就结束了",
+            Reason::EyeSubpathTooShort => "视线子路径在得到 t 个顶点之前就结束了",
+            Reason::LightVertexIsDirac => "光源子路径的末端是镜面或玻璃：它只向个别方向散射，不会沿连接边",
+            Reason::EyeVertexIsDirac => "视线子路径的末端是镜面或玻璃：它只向个别方向散射，不会沿连接边",
+            Reason::NotOnALight => "视线子路径的末端不在光源上",
+            Reason::BackOfTheLight => "光源不向这一侧发光",
+            Reason::BehindTheCamera => "光源子路径的末端在相机后方",
+            Reason::OutsideTheFilm => "光源子路径的末端在画面之外",
+            Reason::LightVertexScattersNothing => "光源子路径的末端不沿连接边散射：边在表面的另一侧离开",
+            Reason::EyeVertexScattersNothing => "视线子路径的末端不沿连接边散射：边在表面的另一侧到达",
+            Reason::DegenerateEdge => "连接边的两端重合，或连接边位于表面所在的平面内",
+            Reason::Blocked => "连接边的两端之间有遮挡",
+            Reason::NoLight => "场景中没有光源",
+            Reason::Removed => "该策略已被移除，不参与计算",
+        },
+    }
+}
+
+/// The same in a few words, for a table.
+pub fn reason_short(reason: Reason, lang: Lang) -> &'static str {
+    let text = match reason {
+        Reason::LightSubpathTooShort => Text::ShortLightTooShort,
+        Reason::EyeSubpathTooShort => Text::ShortEyeTooShort,
+        Reason::LightVertexIsDirac => Text::ShortLightDirac,
+        Reason::EyeVertexIsDirac => Text::ShortEyeDirac,
+        Reason::NotOnALight => Text::ShortNotOnALight,
+        Reason::BackOfTheLight => Text::ShortBackOfLight,
+        Reason::BehindTheCamera => Text::ShortBehindCamera,
+        Reason::OutsideTheFilm => Text::ShortOutsideFilm,
+        Reason::LightVertexScattersNothing => Text::ShortLightBlack,
+        Reason::EyeVertexScattersNothing => Text::ShortEyeBlack,
+        Reason::DegenerateEdge => Text::ShortDegenerate,
+        Reason::Blocked => Text::ShortBlocked,
+        Reason::NoLight => Text::ShortNoLight,
+        Reason::Removed => Text::CellRemoved,
+    };
+    text.in_language(lang)
+}
+
+/// Why a split cannot make the path. The record says it in English; the sentence's key word finds the translation.
+pub fn split_reason(reason: Option<&str>, lang: Lang) -> &str {
+    let english = reason.unwrap_or(Text::SplitZero.in_language(Lang::En));
+    let known = [
+        ("pinhole", Text::SplitPinhole),
+        ("mirror", Text::SplitDirac),
+        ("density is zero", Text::SplitZero),
+        ("removed", Text::SplitRemoved),
+    ];
+    known.iter().find(|(word, _)| english.contains(word)).map_or(english, |(_, text)| text.in_language(lang))
+}
+
+/// Why a subpath has no further vertex.
+pub fn end_text(end: End, lang: Lang) -> &'static str {
+    let text = match end {
+        End::MaxEdges => Text::EndMaxEdges,
+        End::Escaped => Text::EndEscaped,
+        End::Roulette => Text::EndRoulette,
+        End::Absorbed => Text::EndAbsorbed,
+        End::NoLight => Text::ShortNoLight,
+        End::NotNeeded => Text::EndNotNeeded,
+    };
+    text.in_language(lang)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_text_has_both_languages_and_the_same_places() {
+        for text in Text::ALL {
+            let (en, zh) = (text.in_language(Lang::En), text.in_language(Lang::Zh));
+            assert!(!en.trim().is_empty() && !zh.trim().is_empty(), "{text:?}");
+            assert_eq!(en.matches("{}").count(), zh.matches("{}").count(), "{text:?}");
+            assert!(en.is_ascii() || !en.chars().any(|c| ('\u{4e00}'..='\u{9fff}').contains(&c)), "{text:?} is Chinese in English");
+        }
+    }
+
+    #[test]
+    fn values_fill_their_places() {
+        assert_eq!(fill("{} of {}", &["1", "2"]), "1 of 2");
+        assert_eq!(fill("none", &["1"]), "none");
+        assert_eq!(fill("{}{}", &["1"]), "1");
+    }
+
+    #[test]
+    fn what_the_record_says_of_a_split_is_translated() {
+        let said = "one of its walks would never go this way: a density is zero";
+        assert_eq!(split_reason(Some(said), Lang::Zh), Text::SplitZero.in_language(Lang::Zh));
+        assert_eq!(split_reason(Some("something new"), Lang::Zh), "something new");
+    }
+}

@@ -1,0 +1,114 @@
+//! Colours, type and spacing of both themes. Roles have a shape and a colour (Okabe and Ito's, told apart by everybody).
+
+use eframe::egui::{self, Color32, CornerRadius, FontFamily, FontId, Margin, Stroke, Style, TextStyle, Theme, Visuals, vec2};
+
+/// Eye subpath: solid, round vertices.
+pub const EYE: Color32 = Color32::from_rgb(0x00, 0x72, 0xB2);
+/// Light subpath: solid, square vertices.
+pub const LIGHT: Color32 = Color32::from_rgb(0xE6, 0x9F, 0x00);
+/// Connection that carries light: dashed.
+pub const CONNECTION: Color32 = Color32::from_rgb(0x00, 0x9E, 0x73);
+/// Blocked connection: dotted, with a cross at what blocks it.
+pub const BLOCKED: Color32 = Color32::from_rgb(0x70, 0x70, 0x70);
+/// The selection.
+pub const SELECTED: Color32 = Color32::from_rgb(0xCC, 0x79, 0xA7);
+
+/// Weak text and lines of a bar's empty part.
+pub fn faint(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { Color32::from_gray(0x3a) } else { Color32::from_gray(0xd8) }
+}
+
+/// The filled part of a weight bar.
+pub fn bar(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { Color32::from_rgb(0x56, 0xB4, 0xE9) } else { EYE }
+}
+
+/// The background behind images: neutral, so that it does not colour them.
+pub fn backdrop(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { Color32::from_gray(0x12) } else { Color32::from_gray(0xc9) }
+}
+
+/// The ground of a selected row or cell.
+pub fn selected_ground(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { Color32::from_rgb(0x46, 0x2f, 0x3d) } else { Color32::from_rgb(0xf6, 0xdf, 0xec) }
+}
+
+/// Gives the context both themes; done once.
+pub fn install(ctx: &egui::Context) {
+    ctx.set_visuals_of(Theme::Dark, dark());
+    ctx.set_visuals_of(Theme::Light, light());
+    ctx.all_styles_mut(type_and_spacing);
+}
+
+/// Chooses a theme.
+pub fn choose(ctx: &egui::Context, dark: bool) {
+    let theme = if dark { Theme::Dark } else { Theme::Light };
+    if ctx.theme() != theme {
+        ctx.set_theme(theme);
+    }
+}
+
+fn type_and_spacing(style: &mut Style) {
+    let sizes = [
+        (TextStyle::Small, 12.0, FontFamily::Proportional),
+        (TextStyle::Body, 14.0, FontFamily::Proportional),
+        (TextStyle::Button, 14.0, FontFamily::Proportional),
+        (TextStyle::Heading, 17.0, FontFamily::Proportional),
+        (TextStyle::Monospace, 12.5, FontFamily::Monospace),
+    ];
+    style.text_styles = sizes.into_iter().map(|(name, size, family)| (name, FontId::new(size, family))).collect();
+    style.spacing.item_spacing = vec2(8.0, 5.0);
+    style.spacing.button_padding = vec2(8.0, 3.0);
+    style.spacing.interact_size.y = 24.0;
+    style.spacing.window_margin = Margin::same(12);
+    style.spacing.tooltip_width = 380.0;
+    style.spacing.scroll.floating = false;
+    style.spacing.scroll.bar_width = 8.0;
+    style.interaction.selectable_labels = false;
+    style.interaction.tooltip_delay = 0.35;
+}
+
+fn dark() -> Visuals {
+    let mut v = Visuals::dark();
+    v.panel_fill = Color32::from_gray(0x1e);
+    v.window_fill = Color32::from_gray(0x24);
+    v.extreme_bg_color = Color32::from_gray(0x14);
+    v.faint_bg_color = Color32::from_gray(0x25);
+    v.override_text_color = Some(Color32::from_gray(0xdc));
+    v.weak_text_color = Some(Color32::from_gray(0x9c));
+    v.error_fg_color = Color32::from_rgb(0xff, 0x9d, 0x8a);
+    v.warn_fg_color = Color32::from_rgb(0xf0, 0xc0, 0x60);
+    v.selection.bg_fill = Color32::from_rgb(0x2b, 0x5b, 0x7e);
+    v.selection.stroke = Stroke::new(1.0, Color32::from_gray(0xf5));
+    common(&mut v, Color32::from_gray(0x34));
+    v
+}
+
+fn light() -> Visuals {
+    let mut v = Visuals::light();
+    v.panel_fill = Color32::from_gray(0xf6);
+    v.window_fill = Color32::from_gray(0xfc);
+    v.extreme_bg_color = Color32::WHITE;
+    v.faint_bg_color = Color32::from_gray(0xee);
+    v.override_text_color = Some(Color32::from_gray(0x20));
+    v.weak_text_color = Some(Color32::from_gray(0x5c));
+    v.error_fg_color = Color32::from_rgb(0xa8, 0x2c, 0x12);
+    v.warn_fg_color = Color32::from_rgb(0x7a, 0x52, 0x00);
+    v.selection.bg_fill = Color32::from_rgb(0xbf, 0xdd, 0xf0);
+    v.selection.stroke = Stroke::new(1.0, Color32::from_gray(0x10));
+    common(&mut v, Color32::from_gray(0xd4));
+    v
+}
+
+fn common(v: &mut Visuals, line: Color32) {
+    let round = CornerRadius::same(5);
+    let w = &mut v.widgets;
+    for state in [&mut w.noninteractive, &mut w.inactive, &mut w.hovered, &mut w.active, &mut w.open] {
+        state.corner_radius = round;
+        state.expansion = 0.0;
+    }
+    v.widgets.noninteractive.bg_stroke = Stroke::new(1.0, line);
+    v.window_corner_radius = CornerRadius::same(8);
+    v.window_stroke = Stroke::new(1.0, line);
+    v.striped = false;
+}

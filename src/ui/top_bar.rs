@@ -1,0 +1,161 @@
+//! The top bar: which scene, which estimator, and the window's own switches.
+
+use super::keys::{self, Action};
+use super::live::Live;
+use super::state::State;
+use super::text::{Lang, Text};
+use super::widgets::labelled;
+use crate::bdpt::{HeuristicKind, StrategySet};
+use crate::scene::builtin;
+use eframe::egui::{self, Align, ComboBox, DragValue, Layout, Ui};
+
+/// Film sizes on offer.
+pub const SIZES: &[[u32; 2]] = &[[128, 128], [256, 256], [512, 512], [768, 768], [1024, 1024], [640, 360], [960, 540]];
+
+const HEURISTICS: &[(HeuristicKind, Text, Text)] = &[
+    (HeuristicKind::Power, Text::Power, Text::HelpPower),
+    (HeuristicKind::Balance, Text::Balance, Text::HelpBalance),
+    (HeuristicKind::Max, Text::Max, Text::HelpMax),
+    (HeuristicKind::Cutoff, Text::Cutoff, Text::HelpCutoff),
+    (HeuristicKind::Uniform, Text::Uniform, Text::HelpUniform),
+];
+
+/// Shows the bar.
+pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
+    ui.horizontal_wrapped(|ui| {
+        scene_menu(ui, state, live);
+        ui.separator();
+        integrator(ui, state);
+        heuristic(ui, state);
+        numbers(ui, state);
+        film_size(ui, state);
+        ui.separator();
+        let pause = state.say(if state.paused { Text::Resume } else { Text::Pause });
+        if ui.button(pause).on_hover_text(keys::hint(state, Text::KeyPause, Action::Pause)).clicked() {
+            state.paused = !state.paused;
+        }
+        if ui.button(state.say(Text::Restart)).on_hover_text(state.say(Text::HelpRestart)).clicked() {
+            state.restart = true;
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| window_switches(ui, state));
+    });
+}
+
+fn window_switches(ui: &mut Ui, state: &mut State) {
+    if ui.button("?").on_hover_text(keys::hint(state, Text::KeyHelp, Action::Help)).clicked() {
+        state.help = !state.help;
+    }
+    let theme = state.say(if state.prefs.dark { Text::LightTheme } else { Text::DarkTheme });
+    if ui.button(theme).on_hover_text(state.say(Text::HelpTheme)).clicked() {
+        state.prefs.dark = !state.prefs.dark;
+    }
+    let (name, other) = match state.prefs.lang {
+        Lang::En => ("中文", Lang::Zh),
+        Lang::Zh => ("English", Lang::En),
+    };
+    if ui.button(name).on_hover_text(state.say(Text::HelpLanguage)).clicked() {
+        state.prefs.lang = other;
+    }
+    ui.separator();
+    let label = state.say(Text::Pyramid);
+    ui.toggle_value(&mut state.prefs.pyramid_open, label).on_hover_text(Text::HelpTogglePanel.in_language(state.prefs.lang));
+    let label = state.say(Text::Inspector);
+    ui.toggle_value(&mut state.prefs.inspector_open, label).on_hover_text(Text::HelpTogglePanel.in_language(state.prefs.lang));
+}
+
+fn scene_menu(ui: &mut Ui, state: &mut State, live: &Live) {
+    let current = live.loading().or(live.scene().map(|scene| scene.name.as_str())).unwrap_or("–").to_owned();
+    let label = ui.label(state.say(Text::Scene));
+    let response = ComboBox::from_id_salt("scene").selected_text(current.as_str()).width(130.0).show_ui(ui, |ui| {
+        for scene in builtin::list() {
+            if ui.selectable_label(scene.name == current, scene.name).on_hover_text(scene.teaches).clicked() {
+                state.open_scene = Some(scene.name.to_owned());
+            }
+        }
+        ui.separator();
+        ui.label(state.say(Text::ScenePath));
+        let hint = state.say(Text::ScenePathHint);
+        let field = egui::TextEdit::singleline(&mut state.scene_field).hint_text(hint).desired_width(240.0);
+        let entered = ui.add(field).lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+        let open = ui.button(state.say(Text::Open)).clicked();
+        if (entered || open) && !state.scene_field.trim().is_empty() {
+            state.open_scene = Some(state.scene_field.trim().to_owned());
+            ui.close();
+        }
+    });
+    response.response.labelled_by(label.id).on_hover_text(state.say(Text::HelpScene));
+    if live.loading().is_some() {
+        ui.spinner();
+    }
+}
+
+fn integrator(ui: &mut Ui, state: &mut State) {
+    let set = state.settings.strategies;
+    let presets = [
+        (StrategySet::ALL, Text::IntegratorAll, Text::HelpIntegratorAll),
+        (StrategySet::path_tracer(), Text::IntegratorPt, Text::HelpIntegratorPt),
+        (StrategySet::light_tracer(), Text::IntegratorLt, Text::HelpIntegratorLt),
+    ];
+    let same = |other: &StrategySet| crate::bdpt::Strategy::all(state.settings.max_edges).all(|x| set.contains(x) == other.contains(x));
+    let current = presets.iter().find(|(other, ..)| same(other)).map_or(Text::IntegratorSome, |(_, name, _)| *name);
+    let label = ui.label(state.say(Text::Integrator));
+    let combo = ComboBox::from_id_salt("integrator").selected_text(state.say(current)).width(70.0);
+    let response = combo.show_ui(ui, |ui| {
+        for (set, name, help) in presets {
+            if ui.selectable_label(current == name, state.say(name)).on_hover_text(state.say(help)).clicked() {
+                state.settings.strategies = set;
+            }
+        }
+    });
+    response.response.labelled_by(label.id).on_hover_text(state.say(Text::HelpIntegrator));
+}
+
+fn heuristic(ui: &mut Ui, state: &mut State) {
+    let kind = state.settings.heuristic.kind;
+    let current = HEURISTICS.iter().find(|(other, ..)| *other == kind).map_or(Text::Power, |(_, name, _)| *name);
+    let label = ui.label(state.say(Text::Heuristic));
+    let response = ComboBox::from_id_salt("heuristic").selected_text(state.say(current)).width(80.0).show_ui(ui, |ui| {
+        for (other, name, help) in HEURISTICS {
+            if ui.selectable_label(*other == kind, state.say(*name)).on_hover_text(state.say(*help)).clicked() {
+                state.settings.heuristic.kind = *other;
+            }
+        }
+    });
+    response.response.labelled_by(label.id).on_hover_text(state.say(Text::HelpHeuristic));
+    let hint = |text: Text| text.in_language(state.prefs.lang);
+    let h = &mut state.settings.heuristic;
+    match kind {
+        HeuristicKind::Power => {
+            labelled(ui, "β", hint(Text::HelpBeta), |ui| {
+                ui.add(DragValue::new(&mut h.beta).range(0.0..=16.0).speed(0.02).max_decimals(2))
+            });
+        }
+        HeuristicKind::Cutoff => {
+            labelled(ui, "A", hint(Text::HelpA), |ui| ui.add(DragValue::new(&mut h.cutoff).range(0.0..=1.0).speed(0.005).max_decimals(3)));
+        }
+        _ => {}
+    }
+}
+
+fn numbers(ui: &mut Ui, state: &mut State) {
+    let lang = state.prefs.lang;
+    let settings = &mut state.settings;
+    labelled(ui, "K", Text::HelpK.in_language(lang), |ui| ui.add(DragValue::new(&mut settings.max_edges).range(1..=64).speed(0.05)));
+    labelled(ui, Text::Seed.in_language(lang), Text::HelpSeed.in_language(lang), |ui| {
+        ui.add(DragValue::new(&mut settings.seed).speed(0.1))
+    });
+    ui.checkbox(&mut settings.roulette, Text::Roulette.in_language(lang)).on_hover_text(Text::HelpRoulette.in_language(lang));
+}
+
+fn film_size(ui: &mut Ui, state: &mut State) {
+    let shown = |size: [u32; 2]| format!("{}×{}", size[0], size[1]);
+    let label = ui.label(state.say(Text::FilmSize));
+    let response = ComboBox::from_id_salt("film size").selected_text(shown(state.size)).width(84.0).show_ui(ui, |ui| {
+        for size in SIZES {
+            if ui.selectable_label(*size == state.size, shown(*size)).clicked() {
+                state.resize(*size);
+            }
+        }
+    });
+    response.response.labelled_by(label.id).on_hover_text(state.say(Text::HelpFilmSize));
+}

@@ -1,0 +1,140 @@
+//! Small things several panels draw: bars, swatches, eye and cross buttons, names of strategies.
+
+use super::text::{Lang, Text, fill};
+use super::theme;
+use crate::bdpt::{Role as StrategyRole, Strategy};
+use eframe::egui::{
+    self, Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
+};
+
+/// A strategy by its role: "next event", "connect 2+2", …
+pub fn role_name(strategy: Strategy, lang: Lang) -> String {
+    let text = match strategy.role() {
+        StrategyRole::EyeHitsLight => Text::RoleEyeHitsLight,
+        StrategyRole::NextEvent => Text::RoleNextEvent,
+        StrategyRole::Connect => Text::RoleConnect,
+        StrategyRole::LightTracer => Text::RoleLightTracer,
+        StrategyRole::LightHitsLens => Text::RoleLightHitsLens,
+    };
+    fill(text.in_language(lang), &[&strategy.s.to_string(), &strategy.t.to_string()])
+}
+
+/// What the role means, in a sentence.
+pub fn role_help(role: StrategyRole) -> Text {
+    match role {
+        StrategyRole::EyeHitsLight => Text::HelpEyeHitsLight,
+        StrategyRole::NextEvent => Text::HelpNextEvent,
+        StrategyRole::Connect => Text::HelpConnect,
+        StrategyRole::LightTracer => Text::HelpLightTracer,
+        StrategyRole::LightHitsLens => Text::HelpLightHitsLens,
+    }
+}
+
+/// "(1,2)".
+pub fn pair(strategy: Strategy) -> String {
+    format!("({},{})", strategy.s, strategy.t)
+}
+
+/// "next event (1,2)".
+pub fn full_name(strategy: Strategy, lang: Lang) -> String {
+    format!("{} {}", role_name(strategy, lang), pair(strategy))
+}
+
+/// A horizontal bar filled to `fraction`.
+pub fn bar(painter: &Painter, visuals: &egui::Visuals, rect: Rect, fraction: f32, fill: Color32) {
+    let round = CornerRadius::same(2);
+    painter.rect_filled(rect, round, theme::faint(visuals));
+    let width = rect.width() * fraction.clamp(0.0, 1.0);
+    if width > 0.0 {
+        painter.rect_filled(Rect::from_min_size(rect.min, vec2(width.max(1.5), rect.height())), round, fill);
+    }
+}
+
+/// A colour with a thin border, so that white shows on white.
+pub fn swatch(painter: &Painter, visuals: &egui::Visuals, rect: Rect, colour: Color32) {
+    let border = Stroke::new(1.0, visuals.weak_text_color());
+    painter.rect(rect, CornerRadius::same(2), colour, border, egui::StrokeKind::Inside);
+}
+
+/// Text in a column of a row that is painted as a whole, cut off at the column's right edge.
+pub fn cell_text(painter: &Painter, column: Rect, text: &str, font: FontId, colour: Color32) {
+    let clipped = painter.with_clip_rect(column.intersect(painter.clip_rect()));
+    clipped.text(pos2(column.left(), column.center().y), Align2::LEFT_CENTER, text, font, colour);
+}
+
+/// The picture on an icon button.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Icon {
+    /// An eye; closed when off.
+    Eye,
+    /// A minus sign; a plus sign when off.
+    TakeOut,
+}
+
+/// A small toggle with a painted icon, readable over any picture; takes no room of its own.
+pub struct IconToggle<'a> {
+    /// Where it is.
+    pub rect: Rect,
+    /// Its id.
+    pub id: egui::Id,
+    /// Its picture.
+    pub icon: Icon,
+    /// Is what it stands for on?
+    pub on: bool,
+    /// Can it be used?
+    pub enabled: bool,
+    /// What it is called.
+    pub name: &'a str,
+}
+
+/// Shows an icon toggle.
+pub fn icon_toggle(ui: &Ui, toggle: IconToggle<'_>) -> Response {
+    let IconToggle { rect, id, icon, on, enabled, name } = toggle;
+    let response = ui.interact(rect, id, if enabled { Sense::click() } else { Sense::hover() });
+    response.widget_info(|| WidgetInfo::selected(Role::CheckBox, enabled, !on, name));
+    let mut painter = ui.painter().clone();
+    if !enabled {
+        painter.multiply_opacity(0.45);
+    }
+    let painter = &painter;
+    let ground = if response.hovered() { Color32::from_black_alpha(0xf0) } else { Color32::from_black_alpha(0xa8) };
+    painter.rect_filled(rect, CornerRadius::same(4), ground);
+    if response.has_focus() {
+        painter.rect_stroke(rect, CornerRadius::same(4), Stroke::new(2.0, theme::SELECTED), egui::StrokeKind::Outside);
+    }
+    let colour = if on { Color32::from_gray(0xf0) } else { theme::LIGHT };
+    match icon {
+        Icon::Eye => paint_eye(painter, rect.center(), colour, on),
+        Icon::TakeOut => paint_sign(painter, rect.center(), colour, !on),
+    }
+    response
+}
+
+fn paint_eye(painter: &Painter, centre: Pos2, colour: Color32, open: bool) {
+    let stroke = Stroke::new(1.3, colour);
+    let arc = |up: f32| (-6..=6).map(|i| i as f32 / 6.0).map(|x| centre + vec2(x * 6.0, up * 3.8 * (1.0 - x * x))).collect::<Vec<_>>();
+    painter.line(arc(1.0), stroke);
+    if open {
+        painter.line(arc(-1.0), stroke);
+        painter.circle_filled(centre, 1.9, colour);
+    } else {
+        for (x, y) in [(-4.0, 2.0), (0.0, 3.8), (4.0, 2.0)] {
+            painter.line_segment([centre + vec2(x, y), centre + vec2(x * 1.3, y + 2.6)], stroke);
+        }
+    }
+}
+
+fn paint_sign(painter: &Painter, centre: Pos2, colour: Color32, plus: bool) {
+    let stroke = Stroke::new(1.6, colour);
+    painter.line_segment([centre - vec2(4.0, 0.0), centre + vec2(4.0, 0.0)], stroke);
+    if plus {
+        painter.line_segment([centre - vec2(0.0, 4.0), centre + vec2(0.0, 4.0)], stroke);
+    }
+}
+
+/// A labelled control: the label names it for a screen reader, too.
+pub fn labelled(ui: &mut Ui, label: &str, hint: &str, add: impl FnOnce(&mut Ui) -> Response) -> Response {
+    let name = ui.label(label);
+    let response = add(ui).labelled_by(name.id);
+    if hint.is_empty() { response } else { response.on_hover_text(hint) }
+}

@@ -1,0 +1,63 @@
+//! The loader: what each glTF construct becomes, what a file leaves out, and that no bad file does more than make an error.
+
+mod bad_input;
+mod builtins;
+mod geometry;
+#[path = "../common/glb.rs"]
+mod glb;
+mod materials;
+
+use bdpt_explorer::math::{DVec3, Vec2, Vec3};
+use bdpt_explorer::scene::{DIELECTRIC, LAMBERT, MIRROR, NONE, Ray, Scene, THIN_DIELECTRIC, View, builtin, gltf};
+use glb::{Glb, Shape, emitter, glass, lambert, mirror};
+use serde_json::{Value, json};
+use std::path::Path;
+
+const GREY: [f64; 3] = [0.4, 0.4, 0.4];
+/// The upright unit square in z = 0, front towards +z.
+const SQUARE: [[f64; 3]; 4] = [[-0.5, -0.5, 0.0], [0.5, -0.5, 0.0], [0.5, 0.5, 0.0], [-0.5, 0.5, 0.0]];
+
+/// A lamp facing +z and a camera: files with these get no notes.
+fn base() -> Glb {
+    let mut glb = Glb::new("test");
+    let lamp = glb.material(emitter("lamp", GREY, [1.0, 1.0, 1.0], 2.0));
+    glb.object("lamp", &Shape::quad(SQUARE.map(|[x, y, _]| [x, y, -3.0])), lamp);
+    glb.camera("camera", [0.0, 0.0, 4.0], [0.0, 0.0], 0.8);
+    glb
+}
+
+/// [`base`] and the unit square with `material`.
+fn square(material: Value) -> Glb {
+    let mut glb = base();
+    let material = glb.material(material);
+    glb.object("square", &Shape::quad(SQUARE), material);
+    glb
+}
+
+fn load(glb: &Glb) -> Scene {
+    gltf::load_bytes("test.glb", &glb.bytes()).unwrap()
+}
+
+fn error(glb: &Glb) -> String {
+    bytes_error(&glb.bytes())
+}
+
+fn bytes_error(bytes: &[u8]) -> String {
+    let message = gltf::load_bytes("test.glb", bytes).unwrap_err().to_string();
+    assert!(message.starts_with("test.glb: ") && !message.contains('\n'), "{message}");
+    message
+}
+
+/// Asserts that all the parts occur.
+#[track_caller]
+fn says(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "'{part}' is missing in: {text}");
+    }
+}
+
+/// The material of the first hit from (0, 0, 2) along −z.
+fn seen(scene: &Scene) -> &bdpt_explorer::scene::Material {
+    let hit = scene.intersect(&Ray { origin: (DVec3::new(0.01, 0.02, 2.0) - scene.origin).as_vec3(), direction: Vec3::NEG_Z }).unwrap();
+    &scene.materials[hit.material as usize]
+}
