@@ -19,6 +19,7 @@ const HOMES: [(&str, &[&str]); 17] = [
     ("eframe", &["ui/", "main.rs"]),
     ("egui", &["ui/", "main.rs"]),
     ("egui_extras", &["ui/", "main.rs"]),
+    ("egui_system_font_provider", &["ui/"]),
     ("env_logger", &["main.rs", "ui/"]),
     ("epaint_default_fonts", &["report/"]),
     ("exr", &["film/", "scene/"]),

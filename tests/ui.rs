@@ -225,8 +225,11 @@ fn keys_do_what_the_table_says_but_not_while_typing() {
     press(&mut window, Key::ArrowRight);
     press(&mut window, Key::ArrowUp);
     assert_eq!(window.state().state().selection.pixel, [x + 1, y - 1]);
+    click(&mut window, Role::Button, "Next");
     press(&mut window, Key::N);
-    assert_eq!(window.state().state().selection.sample, 1);
+    assert_eq!(window.state().state().selection.sample, 2);
+    press(&mut window, Key::ArrowLeft);
+    assert_eq!(window.state().state().selection.pixel, [x, y - 1], "a click leaves the keyboard to the image");
     press(&mut window, Key::E);
     assert_eq!(window.state().state().exposure, 0.5);
     window.key_press_modifiers(Modifiers::SHIFT, Key::E);

@@ -192,7 +192,7 @@ impl Sample {
             raster: self.raster,
             pixel: [self.id.x, self.id.y],
             connection_term: l_e,
-            contribution_unweighted: l_e * last.alpha / context.view.pixels(),
+            contribution_unweighted: l_e * last.alpha * context.view.per_pass(),
             mis_weight: mis_weight(&self.path, 0, &context.settings.heuristic),
         })
     }
@@ -235,7 +235,7 @@ impl Sample {
             raster,
             pixel,
             connection_term,
-            contribution_unweighted: a.alpha * connection_term * b.alpha / context.view.pixels(),
+            contribution_unweighted: a.alpha * connection_term * b.alpha * context.view.per_pass(),
             mis_weight: mis_weight(&self.path, s, &context.settings.heuristic),
         })
     }

@@ -20,7 +20,10 @@ use rayon::prelude::*;
 /// kind is the image itself.
 #[derive(Clone, Debug)]
 pub struct Plan {
+    /// In index order.
     strategies: Vec<(Strategy, Slot)>,
+    /// The same by t, then s: the order to run them in.
+    by_t: Vec<Vec<(Strategy, Slot)>>,
     light_vertices: usize,
     eye_vertices: usize,
     /// The film's layers.
@@ -99,7 +102,9 @@ impl Plan {
         let walked = |x: &Strategy| x.s >= 2 || x.t == 1 || (x.s == 1 && !settings.fresh_ends);
         let light_vertices = strategies.iter().map(|(x, _)| x).filter(|x| walked(x)).map(|x| x.s).max().unwrap_or(0) as usize;
         let eye_vertices = strategies.iter().map(|(x, _)| x.t).max().unwrap_or(0) as usize;
-        Self { strategies, light_vertices, eye_vertices, layers }
+        let with_t = |t| strategies.iter().filter(|(x, _)| x.t as usize == t).copied().collect();
+        let by_t = (0..=eye_vertices).map(with_t).collect();
+        Self { strategies, by_t, light_vertices, eye_vertices, layers }
     }
 
     /// The strategies that run, in index order.
@@ -143,15 +148,13 @@ impl Target<'_> {
             let id = SampleId { x, y: row.y, sample: self.pass, seed: context.settings.seed };
             let eye_vertices = if self.crop.contains([x, row.y]) { plan.eye_vertices } else { 0 };
             sample.trace(context, id, plan.light_vertices, eye_vertices);
-            let (n_light, n_eye) = (sample.light.vertices.len() as u32, sample.eye.vertices.len() as u32);
-            for &(strategy, slot) in &plan.strategies {
-                // Strategies beyond a subpath's end contribute zero.
-                let fresh = strategy.s == 1 && strategy.t >= 2 && context.settings.fresh_ends;
-                if strategy.t > n_eye || (strategy.s > n_light && !fresh) {
-                    continue;
-                }
-                if let Ok(contribution) = sample.evaluate(context, strategy) {
-                    self.add(strategy, slot, &contribution, id, row);
+            let (n_light, n_eye) = (sample.light.vertices.len() as u32, sample.eye.vertices.len());
+            // Strategies beyond a subpath's end contribute zero; the fresh end of (1, t) needs no light subpath.
+            for family in plan.by_t.iter().take(n_eye + 1) {
+                for &(strategy, slot) in family.iter().take_while(|(x, _)| x.s <= n_light.max(1)) {
+                    if let Ok(contribution) = sample.evaluate(context, strategy) {
+                        self.add(strategy, slot, &contribution, id, row);
+                    }
                 }
             }
         }

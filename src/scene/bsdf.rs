@@ -74,20 +74,28 @@ pub struct Bsdf<'a> {
     pub n_s: Vec3,
     /// The material.
     pub material: &'a Material,
+    /// Are both normals the same? Then there is less to compute.
+    flat: bool,
 }
 
-impl Bsdf<'_> {
+impl<'a> Bsdf<'a> {
+    /// A material at a point with the given normals.
+    #[inline]
+    pub fn new(n_g: Vec3, n_s: Vec3, material: &'a Material) -> Self {
+        Self { n_g, n_s, material, flat: n_g == n_s }
+    }
+
     /// On which side of the surface `w` lies: +1, −1, or 0 where the two normals disagree.
     #[inline]
     fn side(&self, w: Vec3) -> f32 {
-        let (g, s) = (w.dot(self.n_g), w.dot(self.n_s));
-        if g * s > 0.0 { g.signum() } else { 0.0 }
+        let g = w.dot(self.n_g);
+        if g == 0.0 || (!self.flat && g * w.dot(self.n_s) <= 0.0) { 0.0 } else { 1.0f32.copysign(g) }
     }
 
     /// |w·n_s| / |w·n_g|.
     #[inline]
     fn normal_ratio(&self, w: Vec3) -> f32 {
-        (w.dot(self.n_s) / w.dot(self.n_g)).abs()
+        if self.flat { 1.0 } else { (w.dot(self.n_s) / w.dot(self.n_g)).abs() }
     }
 
     /// f̄(ω_L, ω_E) of the components that are not Diracs, sr⁻¹.

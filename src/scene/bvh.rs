@@ -132,9 +132,24 @@ impl Bvh {
 
     /// Visits hits nearer and nearer, from `t_max` down, until `stop` says so (then true) or there is none left.
     #[inline(always)]
-    fn traverse(&self, triangles: &[Triangle], ray: &PreparedRay, mut t_max: f32, mut stop: impl FnMut(Hit) -> bool) -> bool {
+    fn traverse(&self, triangles: &[Triangle], ray: &PreparedRay, t_max: f32, stop: impl FnMut(Hit) -> bool) -> bool {
+        // A small scene's stack is so small that clearing it costs nothing.
+        match self.depth {
+            0..=16 => self.traverse_with::<16>(triangles, ray, t_max, stop),
+            _ => self.traverse_with::<STACK_SIZE>(triangles, ray, t_max, stop),
+        }
+    }
+
+    #[inline(always)]
+    fn traverse_with<const N: usize>(
+        &self,
+        triangles: &[Triangle],
+        ray: &PreparedRay,
+        mut t_max: f32,
+        mut stop: impl FnMut(Hit) -> bool,
+    ) -> bool {
         let Some(mut node) = self.nodes.first() else { return false };
-        let mut stack = [(0u32, 0.0f32); STACK_SIZE];
+        let mut stack = [(0u32, 0.0f32); N];
         let mut top = 0;
         loop {
             if node.count > 0 {

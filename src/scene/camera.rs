@@ -37,20 +37,36 @@ pub struct View {
     /// Film size, pixels.
     pub size: [u32; 2],
     half_extent: Vec2,
+    per_pass: f32,
 }
 
 impl View {
     /// The view through `camera` on a film of `width` × `height` pixels.
     pub fn new(camera: &Camera, width: u32, height: u32) -> Self {
         let tan_y = (0.5 * camera.yfov).tan();
+        let per_pass = 1.0 / (width as f32 * height as f32);
         let half_extent = Vec2::new(tan_y * width as f32 / height as f32, tan_y);
-        Self { position: camera.position, right: camera.right, up: camera.up, axis: camera.axis, size: [width, height], half_extent }
+        Self {
+            position: camera.position,
+            right: camera.right,
+            up: camera.up,
+            axis: camera.axis,
+            size: [width, height],
+            half_extent,
+            per_pass,
+        }
     }
 
     /// Number of pixels, which is also n_i: eye subpaths, and light subpaths, per pass over the full film.
     #[inline]
     pub fn pixels(&self) -> f32 {
         self.size[0] as f32 * self.size[1] as f32
+    }
+
+    /// 1/n_i, what one evaluation of a technique counts in a pass.
+    #[inline]
+    pub fn per_pass(&self) -> f32 {
+        self.per_pass
     }
 
     /// A_film on the plane at distance 1.

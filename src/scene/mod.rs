@@ -242,7 +242,7 @@ impl Scene {
     /// The scattering model at a surface point.
     #[inline]
     pub fn bsdf(&self, n_g: Vec3, n_s: Vec3, material: u32) -> Bsdf<'_> {
-        Bsdf { n_g, n_s, material: &self.materials[material as usize] }
+        Bsdf::new(n_g, n_s, &self.materials[material as usize])
     }
 
     /// Coordinates as the file has them.

@@ -18,8 +18,10 @@ use eframe::egui::{
 /// Height of the two lines below the picture.
 const CAPTION: f32 = 35.0;
 
-/// The size of a cell whose picture is `width` wide.
-pub fn size(width: f32, aspect: f32) -> Vec2 {
+/// The size of a cell: as wide as chosen, with the film's shape.
+pub fn size(state: &State) -> Vec2 {
+    let width = state.prefs.cell;
+    let aspect = state.size[1] as f32 / state.size[0].max(1) as f32;
     vec2(width, (width * aspect).clamp(30.0, 2.0 * width) + CAPTION)
 }
 
@@ -44,8 +46,8 @@ impl Content<'_> {
 }
 
 /// Shows a cell.
-pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures, strategy: Strategy, size: Vec2) {
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures, strategy: Strategy) {
+    let (rect, response) = ui.allocate_exact_size(size(state), Sense::click());
     let frame = live.frame();
     let content = Content {
         strategy,
@@ -105,7 +107,7 @@ fn caption(ui: &Ui, state: &State, content: &Content<'_>, rect: Rect) {
     let inner = rect.shrink2(vec2(5.0, 1.5));
     let (top, bottom) = inner.split_top_bottom_at_fraction(0.5);
     let colour = if content.hidden || content.removed { visuals.weak_text_color() } else { visuals.text_color() };
-    cell_text(painter, top, &role_name(content.strategy, state.prefs.lang), FontId::proportional(12.0), colour);
+    cell_text(painter, top, &role_name(content.strategy, state.prefs.lang), FontId::proportional(11.5), colour);
     cell_text(painter, bottom, &pair(content.strategy), FontId::proportional(11.5), visuals.weak_text_color());
     if let Some(thumbnail) = content.thumbnail.filter(|x| x.share > 0.0 && !content.removed) {
         let at = pos2(bottom.right(), bottom.center().y);

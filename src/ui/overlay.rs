@@ -74,12 +74,12 @@ fn connections(painter: &Painter, state: &State, record: &PathRecord, projector:
 
 fn selected(painter: &Painter, strategy: &StrategyRecord, projector: &Projector) {
     if let Some([a, b]) = connection_edge(strategy) {
-        // Up to what blocks it, the edge is as good as any other.
-        let end = strategy.blocker.unwrap_or(b);
-        if let Some(line) = projector.segment(end, b).filter(|_| strategy.blocker.is_some()) {
+        // Solid as far as light could go: to the end, to what blocks it, or nowhere.
+        let end = if strategy.feasible { b } else { strategy.blocker.unwrap_or(a) };
+        if let Some(line) = projector.segment(end, b).filter(|_| !strategy.feasible) {
             marks::dotted(painter, line, theme::SELECTED);
         }
-        if let Some(line) = projector.segment(a, end) {
+        if let Some(line) = projector.segment(a, end).filter(|_| end != a) {
             marks::solid(painter, line, theme::SELECTED, 3.0);
         }
     }

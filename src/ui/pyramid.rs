@@ -24,8 +24,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
         brightness(ui, state);
     });
     ui.add_space(2.0);
-    let aspect = state.size[1] as f32 / state.size[0].max(1) as f32;
-    let size = cell::size(state.prefs.cell, aspect);
+    let size = cell::size(state);
     ScrollArea::both().id_salt("pyramid").auto_shrink(false).show(ui, |ui| {
         ui.spacing_mut().item_spacing = vec2(GAP, GAP);
         let longest = ROW_HEAD + (state.settings.max_edges + 1) as f32 * (size.x + GAP);
@@ -38,7 +37,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
                     ui.add_space((state.settings.max_edges - edges) as f32 * 0.5 * (size.x + GAP));
                 }
                 for strategy in row(edges) {
-                    cell::show(ui, state, live, pictures, strategy, size);
+                    cell::show(ui, state, live, pictures, strategy);
                 }
             });
         }

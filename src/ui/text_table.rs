@@ -76,7 +76,7 @@ texts! {
     LightTheme: "Light", "浅色";
     DarkTheme: "Dark", "深色";
     HelpTheme: "Switch between the dark and the light theme", "切换深色与浅色主题";
-    HelpLanguage: "切换到中文", "Switch to English";
+    HelpLanguage: "Switch the window to Chinese", "把界面切换为英文（English）";
     Inspector: "Inspector", "检查器";
     Pyramid: "Pyramid", "策略金字塔";
     HelpTogglePanel: "Show or hide this panel", "显示或隐藏此面板";
@@ -160,6 +160,7 @@ texts! {
     WalkFull: "full path", "完整路径";
     WalkLight: "light subpath", "光源子路径";
     WalkEye: "eye subpath", "视线子路径";
+    FreshPoint: "fresh point", "新取的点";
     KindLens: "lens", "镜头";
     KindLight: "light", "光源";
     KindSurface: "surface", "表面";

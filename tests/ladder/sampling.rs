@@ -176,7 +176,7 @@ fn lambert_scatters_as_it_says_in_both_modes() {
     let n_g = Vec3::new(0.2, 0.1, 1.0).normalize();
     let n_s = Vec3::new(-0.3, 0.4, 0.9).normalize();
     let material = Material::lambert(Vec3::splat(0.6));
-    let bsdf = Bsdf { n_g, n_s, material: &material };
+    let bsdf = Bsdf::new(n_g, n_s, &material);
     let w_in = Vec3::new(0.5, -0.2, 0.6).normalize();
     for mode in [TransportMode::Radiance, TransportMode::Importance] {
         for w_in in [w_in, -w_in] {
@@ -203,7 +203,7 @@ fn smooth_dielectrics_choose_reflection_as_often_as_fresnel_says() {
         let material = Material::dielectric(Vec3::ONE, 1.5, false);
         let side = if eta < 1.0 { 1.0 } else { -1.0 };
         let w_in = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos * side);
-        let bsdf = Bsdf { n_g: Vec3::Z, n_s: Vec3::Z, material: &material };
+        let bsdf = Bsdf::new(Vec3::Z, Vec3::Z, &material);
         let reflected = (0..N)
             .filter(|&i| bsdf.sample(w_in, TransportMode::Radiance, numbers(i, 9)[0], Vec2::ZERO).unwrap().w.z * side > 0.0)
             .count() as u64;
@@ -228,7 +228,7 @@ fn dirac_components_are_one_function_seen_from_both_ends() {
     let mut checked = 0;
     for material in &materials {
         for (i, n_s) in (0..4000).map(|i| (i, if i % 2 == 0 { Vec3::Z } else { Vec3::new(0.15, -0.1, 1.0).normalize() })) {
-            let bsdf = Bsdf { n_g: Vec3::Z, n_s, material };
+            let bsdf = Bsdf::new(Vec3::Z, n_s, material);
             let u = numbers(i, 10);
             let mut w_e = sample_cosine_hemisphere(pair(u, 0));
             w_e.z *= if u[2] < 0.5 { 1.0 } else { -1.0 };
@@ -273,7 +273,7 @@ fn dirac_components_are_one_function_seen_from_both_ends() {
 #[test]
 fn lambert_is_reciprocal_and_reflects_its_albedo() {
     let material = Material::lambert(Vec3::splat(0.8));
-    let bsdf = Bsdf { n_g: Vec3::Z, n_s: Vec3::Z, material: &material };
+    let bsdf = Bsdf::new(Vec3::Z, Vec3::Z, &material);
     for i in 0..64 {
         let w_i = sample_cosine_hemisphere(pair(numbers(i, 11), 0));
         let w_o = sample_cosine_hemisphere(pair(numbers(i, 12), 0));

@@ -34,7 +34,14 @@ fn full(ui: &mut Ui, state: &mut State, strategy: &StrategyRecord) {
     }
     let s = strategy.s as usize;
     for (index, vertex) in strategy.vertices.iter().enumerate() {
-        let own = if index < s { indexed('y', index) } else { indexed('z', strategy.vertices.len() - 1 - index) };
+        // Next event draws a light point of its own: it is no vertex of the light subpath.
+        let own = if s == 1 && index == 0 && state.settings.fresh_ends {
+            state.say(Text::FreshPoint).to_owned()
+        } else if index < s {
+            indexed('y', index)
+        } else {
+            indexed('z', strategy.vertices.len() - 1 - index)
+        };
         let colour = if index < s { theme::LIGHT } else { theme::EYE };
         let title = format!("{} = {own}", indexed('x', index));
         let clicked = card(ui, state.selection.vertex == index, &title, |ui| {
@@ -117,9 +124,11 @@ fn head(ui: &mut Ui, state: &State, title: &str, colour: Color32, vertex: &Verte
 fn full_numbers(ui: &mut Ui, state: &State, index: usize, vertex: &PathVertexRecord) {
     grid(ui, ('x', index), |ui| {
         common_rows(ui, state, &vertex.vertex);
-        let written = |p: Option<f32>| p.map_or("–".to_owned(), |p| density(p, &vertex.vertex));
-        row(ui, "p_light", &written(vertex.p_light), state.say(Text::HelpPLight));
-        row(ui, "p_eye", &written(vertex.p_eye), state.say(Text::HelpPEye));
+        for (name, p, help) in [("p_light", vertex.p_light, Text::HelpPLight), ("p_eye", vertex.p_eye, Text::HelpPEye)] {
+            if let Some(p) = p {
+                row(ui, name, &density(p, &vertex.vertex), state.say(help));
+            }
+        }
     });
 }
 
