@@ -1,5 +1,6 @@
 //! The built-in scenes, described: each committed .glb must equal what its description makes.
 //! `BDPT_WRITE_ASSETS=1 cargo test --test assets` writes them anew.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests may panic")]
 
 #[path = "common/glb.rs"]
 mod glb;

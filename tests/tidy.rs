@@ -11,7 +11,7 @@ use syn::visit::{self, Visit};
 use tokens::paths_in_tokens;
 
 /// Outside packages and the only places that may name them (a folder, or a file, below src/).
-const HOMES: [(&str, &[&str]); 17] = [
+const HOMES: [(&str, &[&str]); 18] = [
     ("ab_glyph", &["report/"]),
     ("clap", &["cli/"]),
     ("cpu_time", &["engine.rs"]),

@@ -72,10 +72,38 @@ pub struct PathVertexRecord {
     /// The vertex; α is its own subpath's, whichever that is.
     #[serde(flatten)]
     pub vertex: VertexRecord,
+    /// Is it a fresh end point, drawn for this connection alone?
+    pub fresh: bool,
     /// Density by a light subpath that reaches it through x_{i−1}; `None` where the subpaths could not be joined.
     pub p_light: Option<f32>,
     /// Density by an eye subpath that reaches it through x_{i+1}; `None` likewise.
     pub p_eye: Option<f32>,
+}
+
+/// Why a strategy cannot make a given path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SplitReason {
+    /// t = 0, and the lens is a point.
+    PinholeCannotBeHit,
+    /// An end of its connection edge scatters by a Dirac on this path.
+    DiracEnd,
+    /// One of its walks would never go this way.
+    ZeroDensity,
+    /// It could, but it was removed.
+    Removed,
+}
+
+impl SplitReason {
+    /// One plain sentence.
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::PinholeCannotBeHit => "a pinhole has no area that a light subpath could hit",
+            Self::DiracEnd => "an end of its connection edge is a mirror or glass vertex of this path",
+            Self::ZeroDensity => "one of its walks would never go this way: a density is zero",
+            Self::Removed => "the strategy was removed",
+        }
+    }
 }
 
 /// A full path under another strategy.
@@ -90,7 +118,9 @@ pub struct SplitRecord {
     /// Can this strategy make the path (and does it take part)?
     pub samplable: bool,
     /// Why not.
-    pub reason: Option<String>,
+    pub reason: Option<SplitReason>,
+    /// The same in words.
+    pub reason_text: Option<&'static str>,
     /// w_{s,t} by its definition.
     pub weight: f64,
 }
@@ -107,7 +137,7 @@ pub struct StrategyRecord {
     /// Why not.
     pub reason: Option<Reason>,
     /// The same in words.
-    pub reason_text: Option<String>,
+    pub reason_text: Option<&'static str>,
     /// Where the contribution lands, raster pixels; on the sample's own pixel unless t ≤ 1.
     pub raster: Option<[f32; 2]>,
     /// x₀…x_k, fresh end points included; empty if a subpath is too short.
@@ -240,7 +270,7 @@ fn strategy_record(context: &Context, sample: &mut Sample, strategy: Strategy) -
         Ok(contribution) => record.carry(&contribution),
         Err(reason) => {
             record.reason = Some(reason);
-            record.reason_text = Some(reason.text().to_owned());
+            record.reason_text = Some(reason.text());
         }
     }
     let too_short =
@@ -272,6 +302,7 @@ impl StrategyRecord {
             .enumerate()
             .map(|(i, v)| PathVertexRecord {
                 vertex: vertex_record(context.scene, v),
+                fresh: i == 0 && s == 1 && sample.fresh.is_some(),
                 p_light: joined.then(|| path.p_light[i]),
                 p_eye: joined.then(|| path.p_eye[i]),
             })
@@ -302,22 +333,23 @@ fn splits(context: &Context, sample: &Sample) -> Vec<SplitRecord> {
                 t: (path.k + 1 - s) as u32,
                 p: (path.samplable[s] && ln_p[s].is_finite()).then_some(ln_p[s] / LN_10),
                 samplable: reason.is_none(),
-                reason: reason.map(str::to_owned),
+                reason,
+                reason_text: reason.map(SplitReason::text),
                 weight: weights[s],
             }
         })
         .collect()
 }
 
-fn split_reason(k: usize, s: usize, samplable: bool, active: bool, ln_p: f64) -> Option<&'static str> {
+fn split_reason(k: usize, s: usize, samplable: bool, active: bool, ln_p: f64) -> Option<SplitReason> {
     if s == k + 1 {
-        Some("a pinhole has no area that a light subpath could hit")
+        Some(SplitReason::PinholeCannotBeHit)
     } else if !samplable {
-        Some("an end of its connection edge is a mirror or glass vertex of this path")
+        Some(SplitReason::DiracEnd)
     } else if ln_p == f64::NEG_INFINITY {
-        Some("one of its walks would never go this way: a density is zero")
+        Some(SplitReason::ZeroDensity)
     } else if !active {
-        Some("the strategy was removed")
+        Some(SplitReason::Removed)
     } else {
         None
     }

@@ -123,7 +123,7 @@ fn strategies(record: &PathRecord) -> String {
             row.extend([format!("{:.4}", entry.mis_weight), rgb(entry.contribution), rgb(entry.contribution_unweighted), lands]);
         } else {
             row.extend(["–", "–", "–", "–"].map(str::to_owned));
-            row.push(entry.reason_text.clone().unwrap_or_default());
+            row.push(entry.reason_text.unwrap_or_default().to_owned());
         }
         table.rows.push(row);
     }

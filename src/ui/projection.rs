@@ -32,7 +32,7 @@ impl Projector {
 
     /// The screen position of a point (file coordinates); `None` behind the camera or at it.
     pub fn point(&self, p: [f64; 3]) -> Option<Pos2> {
-        let w = self.from_camera(p);
+        let w = self.relative_to_camera(p);
         if w.dot(self.view.axis) <= 1e-6 * w.length().max(1e-6) {
             return None;
         }
@@ -41,7 +41,7 @@ impl Projector {
 
     /// The visible part of a segment on the screen, from the image of `a` towards that of `b`.
     pub fn segment(&self, a: [f64; 3], b: [f64; 3]) -> Option<[Pos2; 2]> {
-        let (mut a, mut b) = (self.from_camera(a), self.from_camera(b));
+        let (mut a, mut b) = (self.relative_to_camera(a), self.relative_to_camera(b));
         let (depth_a, depth_b) = (a.dot(self.view.axis), b.dot(self.view.axis));
         let near = 1e-3 * depth_a.abs().max(depth_b.abs());
         if depth_a.max(depth_b) <= near {
@@ -57,7 +57,7 @@ impl Projector {
         clip_segment(self.clip, p?, q?)
     }
 
-    fn from_camera(&self, p: [f64; 3]) -> Vec3 {
+    fn relative_to_camera(&self, p: [f64; 3]) -> Vec3 {
         (DVec3::from(p) - self.origin).as_vec3() - self.view.position
     }
 }

@@ -2,6 +2,7 @@
 //! A `{}` stands for a value that is filled in, in order.
 
 pub use super::text_table::Text;
+use crate::bdpt::record::SplitReason;
 use crate::bdpt::{End, Reason};
 use serde::{Deserialize, Serialize};
 
@@ -70,16 +71,15 @@ pub fn reason_short(reason: Reason, lang: Lang) -> &'static str {
     text.in_language(lang)
 }
 
-/// Why a split cannot make the path. The record says it in English; the sentence's key word finds the translation.
-pub fn split_reason(reason: Option<&str>, lang: Lang) -> &str {
-    let english = reason.unwrap_or(Text::SplitZero.in_language(Lang::En));
-    let known = [
-        ("pinhole", Text::SplitPinhole),
-        ("mirror", Text::SplitDirac),
-        ("density is zero", Text::SplitZero),
-        ("removed", Text::SplitRemoved),
-    ];
-    known.iter().find(|(word, _)| english.contains(word)).map_or(english, |(_, text)| text.in_language(lang))
+/// Why a split cannot make the path.
+pub fn split_reason(reason: SplitReason, lang: Lang) -> &'static str {
+    let text = match reason {
+        SplitReason::PinholeCannotBeHit => Text::SplitPinhole,
+        SplitReason::DiracEnd => Text::SplitDirac,
+        SplitReason::ZeroDensity => Text::SplitZero,
+        SplitReason::Removed => Text::SplitRemoved,
+    };
+    text.in_language(lang)
 }
 
 /// Why a subpath has no further vertex.
@@ -114,12 +114,5 @@ mod tests {
         assert_eq!(fill("{} of {}", &["1", "2"]), "1 of 2");
         assert_eq!(fill("none", &["1"]), "none");
         assert_eq!(fill("{}{}", &["1"]), "1");
-    }
-
-    #[test]
-    fn what_the_record_says_of_a_split_is_translated() {
-        let said = "one of its walks would never go this way: a density is zero";
-        assert_eq!(split_reason(Some(said), Lang::Zh), Text::SplitZero.in_language(Lang::Zh));
-        assert_eq!(split_reason(Some("something new"), Lang::Zh), "something new");
     }
 }

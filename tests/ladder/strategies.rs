@@ -69,8 +69,11 @@ fn harmonic(ln_i: f64, ln_j: f64) -> f64 {
     if r.is_finite() { r / (1.0 + r).powi(2) } else { 0.0 }
 }
 
+/// (k, i, j) and its z.
+type Judged = ((u32, usize, usize), f64);
+
 /// The pairs with enough samples, with their z; and how many had not enough.
-fn judged(table: &Table) -> (Vec<((u32, usize, usize), f64)>, usize) {
+fn judged(table: &Table) -> (Vec<Judged>, usize) {
     let judged: Vec<_> = table
         .iter()
         .filter(|(_, (_, a, b))| a.non_zero >= ENOUGH && b.non_zero >= ENOUGH)

@@ -1,4 +1,5 @@
 //! The loader: what each glTF construct becomes, what a file leaves out, and that no bad file does more than make an error.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests may panic")]
 
 mod bad_input;
 mod builtins;

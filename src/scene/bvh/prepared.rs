@@ -81,7 +81,7 @@ impl PreparedRay {
         }
         let inv = 1.0 / det;
         let distance = self.shear.z * e.dot(z) * inv;
-        (distance > 0.0 && distance < t_max).then(|| Hit { triangle: index, distance, b1: e.y * inv, b2: e.z * inv })
+        (distance > 0.0 && distance < t_max).then_some(Hit { triangle: index, distance, b1: e.y * inv, b2: e.z * inv })
     }
 }
 

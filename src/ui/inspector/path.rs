@@ -35,7 +35,7 @@ fn full(ui: &mut Ui, state: &mut State, strategy: &StrategyRecord) {
     let s = strategy.s as usize;
     for (index, vertex) in strategy.vertices.iter().enumerate() {
         // Next event draws a light point of its own: it is no vertex of the light subpath.
-        let own = if s == 1 && index == 0 && state.settings.fresh_ends {
+        let own = if vertex.fresh {
             state.say(Text::FreshPoint).to_owned()
         } else if index < s {
             indexed('y', index)

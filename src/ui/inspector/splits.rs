@@ -1,7 +1,7 @@
 //! The splits page: the selected strategy's very path under every other strategy that has its length, and how they share it.
 
 use crate::bdpt::Strategy;
-use crate::bdpt::record::{PathRecord, SplitRecord};
+use crate::bdpt::record::{PathRecord, SplitReason, SplitRecord};
 use crate::ui::state::State;
 use crate::ui::text::{Text, split_reason};
 use crate::ui::widgets::{bar, cell_text, full_name, pair, role_name};
@@ -54,7 +54,7 @@ fn row(ui: &mut Ui, state: &mut State, split: &SplitRecord, length: f32) {
     cell_text(painter, line(0.0), &title, FontId::proportional(13.5), colour);
     let low = line(1.0);
     let Some(p) = split.p.filter(|_| split.samplable) else {
-        let reason = split_reason(split.reason.as_deref(), state.prefs.lang);
+        let reason = split_reason(split.reason.unwrap_or(SplitReason::ZeroDensity), state.prefs.lang);
         cell_text(painter, low, reason, FontId::proportional(12.0), weak);
         return;
     };
