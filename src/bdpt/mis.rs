@@ -135,20 +135,55 @@ fn for_each_ratio(path: &FullPath, s: usize, mut visit: impl FnMut(Scaled)) {
     }
 }
 
+/// Σ_{i≠s} (p_i/p_s)^β for β = 1 or 2 in plain f32; `None` as soon as a ratio leaves the range in which its square is safe.
+#[inline(always)]
+fn plain_sum(path: &FullPath, s: usize, squared: bool) -> Option<f32> {
+    const RANGE: std::ops::Range<f32> = 1e-18..1e18;
+    let mut sum = 0.0;
+    let mut ratio = 1.0;
+    for i in s..=path.k {
+        if path.p_light[i] == 0.0 {
+            break;
+        }
+        ratio *= path.p_light[i] / path.p_eye[i];
+        if !RANGE.contains(&ratio) {
+            return None;
+        }
+        if path.active[i + 1] {
+            sum += if squared { ratio * ratio } else { ratio };
+        }
+    }
+    ratio = 1.0;
+    for i in (0..s).rev() {
+        if path.p_eye[i] == 0.0 {
+            break;
+        }
+        ratio *= path.p_eye[i] / path.p_light[i];
+        if !RANGE.contains(&ratio) {
+            return None;
+        }
+        if path.active[i] {
+            sum += if squared { ratio * ratio } else { ratio };
+        }
+    }
+    Some(sum)
+}
+
 /// w_s of the strategy that made the path, by ratios of neighbouring densities. The denominators are then the very factors
 /// of the density that made it, so they are not zero, and a genuine zero elsewhere keeps its meaning.
 #[inline]
 pub fn mis_weight(path: &FullPath, s: usize, heuristic: &Heuristic) -> f32 {
     match heuristic.kind {
-        HeuristicKind::Power => {
-            let mut sum = 1.0;
-            for_each_ratio(path, s, |ratio| sum += ratio.powf(heuristic.beta));
-            1.0 / sum
-        }
-        HeuristicKind::Balance => {
-            let mut sum = 1.0;
-            for_each_ratio(path, s, |ratio| sum += ratio.to_f32());
-            1.0 / sum
+        HeuristicKind::Power | HeuristicKind::Balance => {
+            let beta = if heuristic.kind == HeuristicKind::Balance { 1.0 } else { heuristic.beta };
+            // Most paths are harmless; the others, and other exponents, take the careful way.
+            let plain = if beta == 2.0 || beta == 1.0 { plain_sum(path, s, beta == 2.0) } else { None };
+            let sum = plain.unwrap_or_else(|| {
+                let mut sum = 0.0;
+                for_each_ratio(path, s, |ratio| sum += ratio.powf(beta));
+                sum
+            });
+            1.0 / (1.0 + sum)
         }
         HeuristicKind::Uniform => {
             let mut count = 1.0;

@@ -7,9 +7,9 @@ use crate::math::{DVec3, Vec3};
 /// Vertical field of view of the framed camera, radians.
 const YFOV: f64 = 40.0 * std::f64::consts::PI / 180.0;
 
-/// Irradiance of the default light at the point it faces, W m⁻². Mid-grey surfaces that face it half-way then show a
-/// radiance near 0.5 W m⁻² sr⁻¹: 0.5/π · 6 · cos 60° ≈ 0.5.
-const IRRADIANCE: f64 = 6.0;
+/// Irradiance of the default light at the point it faces, W m⁻². Mid-grey surfaces that face it then show a radiance near
+/// 0.5 W m⁻² sr⁻¹: 0.5/π · 3.2 ≈ 0.5.
+const IRRADIANCE: f64 = 3.2;
 
 impl Parts {
     /// Adds a camera that frames everything if there is none.

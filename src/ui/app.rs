@@ -95,7 +95,7 @@ impl App {
                 panel.show(ui, |ui| inspector::show(ui, state, live));
             }
             if state.prefs.pyramid_open {
-                let panel = Panel::bottom("pyramid").frame(body).resizable(true).default_size(310.0);
+                let panel = Panel::bottom("pyramid").frame(body).resizable(true).default_size(344.0);
                 panel.size_range(130.0..=(room.y * 0.75).max(130.0)).show(ui, |ui| pyramid::show(ui, state, live, pictures));
             }
         }

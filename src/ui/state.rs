@@ -136,7 +136,7 @@ impl Default for Preferences {
             dark: true,
             shown: Shown { eye: true, light: true, connections: true, blocked: true, splats: true, names: true, legend: true },
             gain: Gain::Each,
-            cell: 104.0,
+            cell: 84.0,
             tab: Tab::Strategies,
             sort: Sort::Length,
             inspector_open: true,
