@@ -11,14 +11,13 @@ use syn::visit::{self, Visit};
 use tokens::paths_in_tokens;
 
 /// Outside packages and the only places that may name them (a folder, or a file, below src/).
-const HOMES: [(&str, &[&str]); 18] = [
+const HOMES: [(&str, &[&str]); 17] = [
     ("ab_glyph", &["report/"]),
     ("clap", &["cli/"]),
     ("cpu_time", &["engine.rs"]),
     ("ctrlc", &["cli/"]),
     ("eframe", &["ui/", "main.rs"]),
     ("egui", &["ui/", "main.rs"]),
-    ("egui_extras", &["ui/", "main.rs"]),
     ("egui_system_font_provider", &["ui/"]),
     ("env_logger", &["main.rs", "ui/"]),
     ("epaint_default_fonts", &["report/"]),
