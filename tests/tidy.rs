@@ -11,7 +11,7 @@ use syn::visit::{self, Visit};
 use tokens::paths_in_tokens;
 
 /// Outside packages and the only places that may name them (a folder, or a file, below src/).
-const HOMES: [(&str, &[&str]); 17] = [
+const HOMES: &[(&str, &[&str])] = &[
     ("ab_glyph", &["report/"]),
     ("clap", &["cli/"]),
     ("cpu_time", &["engine.rs"]),
@@ -19,7 +19,6 @@ const HOMES: [(&str, &[&str]); 17] = [
     ("eframe", &["ui/", "main.rs"]),
     ("egui", &["ui/", "main.rs"]),
     ("egui_system_font_provider", &["ui/"]),
-    ("env_logger", &["main.rs", "ui/"]),
     ("epaint_default_fonts", &["report/"]),
     ("exr", &["film/", "scene/"]),
     ("gltf", &["scene/gltf.rs", "scene/gltf/"]),
@@ -31,7 +30,7 @@ const HOMES: [(&str, &[&str]); 17] = [
     ("winit", &["ui/"]),
 ];
 /// Packages that may be used anywhere: they have no opinion on architecture.
-const FREE: [&str; 6] = ["bytemuck", "glam", "log", "serde", "serde_json", "web_time"];
+const FREE: &[&str] = &["bytemuck", "glam", "serde", "serde_json", "web_time"];
 const TOP_LEVEL: [&str; 11] = [
     "Cargo.toml",
     "Cargo.lock",
