@@ -59,7 +59,10 @@ fn jobs_that_cannot_run_are_refused_in_one_line() {
 fn the_frame_is_the_sum_of_what_is_not_hidden() {
     let woken = Arc::new(AtomicU32::new(0));
     let count = Arc::clone(&woken);
-    let mut engine = Engine::start(job(), move || drop(count.fetch_add(1, Ordering::Relaxed))).unwrap();
+    let mut engine = Engine::start(job(), move || {
+        count.fetch_add(1, Ordering::Relaxed);
+    })
+    .unwrap();
     frame_where(&engine, |frame| frame.stats.spp >= 2.0);
     engine.set_paused(true);
     let hidden: StrategySet = [Strategy::new(1, 2), Strategy::new(2, 1)].into_iter().collect();
