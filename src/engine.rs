@@ -166,6 +166,9 @@ pub struct Session {
     plan: Plan,
     film: Film,
     pass: u32,
+    /// The rows in the order in which a pass takes them.
+    row_order: Vec<u32>,
+    /// Rows of the current pass that are done.
     next_row: u32,
     counts: Counts,
     rows_done: u64,
@@ -181,13 +184,14 @@ impl Session {
         let plan = job.plan();
         let brightest = job.scene.lights.list.iter().map(|light| light.radiance.max_element()).fold(0.0, f32::max);
         let film = Film::new(job.size, plan.layers, brightest);
-        let view = job.view();
+        let (view, height) = (job.view(), job.size[1]);
         Ok(Self {
             job,
             view,
             plan,
             film,
             pass: 0,
+            row_order: row_order(height),
             next_row: 0,
             counts: Counts::default(),
             rows_done: 0,
@@ -207,10 +211,17 @@ impl Session {
             let left = budget.saturating_sub(start.elapsed()).as_secs_f64();
             let rows = ((left.min(0.25) * self.rows_per_second / threads).floor().max(1.0) * threads) as u32;
             let rows = rows.min(height - self.next_row);
-            let began = Instant::now();
+            let (began, first) = (Instant::now(), self.next_row as usize);
             let context = Context { scene: &self.job.scene, view: &self.view, settings: &self.job.settings };
             let crop = self.job.crop.unwrap_or(Crop::full(self.job.size));
-            let counts = render_rows(&context, &self.plan, &mut self.film, crop, self.pass, (self.next_row, rows));
+            let counts = render_rows(
+                &context,
+                &self.plan,
+                &mut self.film,
+                crop,
+                self.pass,
+                self.row_order.get(first..first + rows as usize).unwrap_or_default(),
+            );
             self.counts = self.counts.plus(counts);
             self.next_row += rows;
             self.rows_done += u64::from(rows);
@@ -293,6 +304,12 @@ impl Session {
             features: self.job.scene.features.names().into_iter().map(str::to_owned).collect(),
         }
     }
+}
+
+/// Every eighth row first, then the rows between: after an eighth of a pass there is a whole picture to look at. The order
+/// changes nothing in the sums.
+fn row_order(height: u32) -> Vec<u32> {
+    [0, 4, 2, 6, 1, 5, 3, 7].into_iter().flat_map(|phase| (phase..height).step_by(8)).collect()
 }
 
 /// Processor time of this process, all threads.

@@ -118,8 +118,8 @@ fn table(glb: &mut Glb) {
 }
 
 fn furnace() -> Glb {
-    let mut glb = Glb::new("A furnace: paths of k edges carry the radiance 0.5^(k-1), whatever the pixel.");
-    let glow = glb.material(emitter("glow", [0.5, 0.5, 0.5], [1.0, 1.0, 1.0], 1.0));
+    let mut glb = Glb::new("A furnace: paths of k edges carry the radiance 0.25 * 0.5^(k-1), whatever the pixel.");
+    let glow = glb.material(emitter("glow", [0.5, 0.5, 0.5], [1.0, 1.0, 1.0], 0.25));
     glb.object("walls", &Shape::cuboid([-1.0, -0.75, -1.5], [1.0, 0.75, 1.5]).flipped(), glow);
     glb.camera("camera", [0.3, 0.1, 1.0], [15.0, -5.0], 0.9);
     glb

@@ -5,13 +5,14 @@
 
 use super::connect::{Contribution, Reason, Sample, segment};
 use super::mis::{log_densities, mis_weights_by_definition};
+use super::settings::Heuristic;
 use super::strategy::Strategy;
 use super::vertex::{DISCRETE, End, ON_LENS, ON_LIGHT, Subpath, Vertex};
 use super::walk::Context;
 use crate::math::direction_between;
 use crate::rng::SampleId;
 use crate::scene::{NONE, Scene};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::f64::consts::LN_10;
 
 /// In what a density is measured.
@@ -74,7 +75,8 @@ pub struct PathVertexRecord {
     pub vertex: VertexRecord,
     /// Is it a fresh end point, drawn for this connection alone?
     pub fresh: bool,
-    /// Density by a light subpath that reaches it through x_{i−1}; `None` where the subpaths could not be joined.
+    /// Density by a light subpath that reaches it through x_{i−1}; `None` where the subpaths could not be joined, and
+    /// at a pinhole, which no light subpath can hit.
     pub p_light: Option<f32>,
     /// Density by an eye subpath that reaches it through x_{i+1}; `None` likewise.
     pub p_eye: Option<f32>,
@@ -165,11 +167,22 @@ impl StrategyRecord {
     }
 }
 
-/// Everything about one sample of one pixel.
+fn vertices_only<S: Serializer>(subpath: &SubpathRecord, serializer: S) -> Result<S::Ok, S::Error> {
+    subpath.vertices.serialize(serializer)
+}
+
+/// Version of the estimator and its random numbers: records of the same version, scene and settings are the same.
+pub const RECORD_VERSION: u32 = 1;
+
+/// Everything about one sample of one pixel, and everything it depends on.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PathRecord {
+    /// [`RECORD_VERSION`].
+    pub version: u32,
     /// Scene.
     pub scene: String,
+    /// Camera.
+    pub camera: String,
     /// Pixel, from the top left.
     pub pixel: [u32; 2],
     /// Sample number.
@@ -180,12 +193,24 @@ pub struct PathRecord {
     pub size: [u32; 2],
     /// K.
     pub max_edges: u32,
+    /// How strategies share a path.
+    pub heuristic: Heuristic,
+    /// Is there Russian roulette?
+    pub roulette: bool,
+    /// Do s = 1 and t = 1 draw a fresh end point?
+    pub fresh_ends: bool,
     /// Raster position the eye subpath starts through.
     pub raster: [f32; 2],
-    /// The light subpath y₀, y₁, …
+    /// The light subpath y₀, y₁, …; in JSON the list of its vertices.
+    #[serde(serialize_with = "vertices_only")]
     pub light: SubpathRecord,
-    /// The eye subpath z₀, z₁, …
+    /// Why it has no further vertex.
+    pub light_end: End,
+    /// The eye subpath z₀, z₁, …; in JSON the list of its vertices.
+    #[serde(serialize_with = "vertices_only")]
     pub eye: SubpathRecord,
+    /// Why it has no further vertex.
+    pub eye_end: End,
     /// One entry per strategy, in the order of `Strategy::index`.
     pub strategies: Vec<StrategyRecord>,
 }
@@ -199,15 +224,22 @@ pub fn record(context: &Context, pixel: [u32; 2], sample: u32) -> PathRecord {
     traced.trace(context, id, k, k + 1);
     let strategies = Strategy::all(settings.max_edges).map(|strategy| strategy_record(context, &mut traced, strategy)).collect();
     PathRecord {
+        version: RECORD_VERSION,
         scene: scene.name.clone(),
+        camera: context.view.name.clone(),
         pixel,
         sample,
         seed: settings.seed,
         size: context.view.size,
         max_edges: settings.max_edges,
+        heuristic: settings.heuristic,
+        roulette: settings.roulette,
+        fresh_ends: settings.fresh_ends,
         raster: traced.raster.to_array(),
         light: subpath_record(scene, &traced.light),
+        light_end: traced.light.end,
         eye: subpath_record(scene, &traced.eye),
+        eye_end: traced.eye.end,
         strategies,
     }
 }
@@ -234,7 +266,8 @@ fn vertex_record(scene: &Scene, v: &Vertex) -> VertexRecord {
         emitter: v.emits(),
         alpha: v.alpha.to_array(),
         pdf_fwd: v.pdf_fwd_area,
-        pdf_rev: (v.pdf_rev_area > 0.0).then_some(v.pdf_rev_area),
+        // No light subpath can hit a pinhole: there is no density to speak of.
+        pdf_rev: (v.pdf_rev_area > 0.0 && v.flags & DISCRETE == 0).then_some(v.pdf_rev_area),
         measure: if v.flags & DISCRETE != 0 { Measure::Discrete } else { Measure::Area },
         delta: v.is_delta(),
         survival: v.survival,
@@ -303,7 +336,7 @@ impl StrategyRecord {
             .map(|(i, v)| PathVertexRecord {
                 vertex: vertex_record(context.scene, v),
                 fresh: i == 0 && s == 1 && sample.fresh.is_some(),
-                p_light: joined.then(|| path.p_light[i]),
+                p_light: (joined && v.flags & DISCRETE == 0).then(|| path.p_light[i]),
                 p_eye: joined.then(|| path.p_eye[i]),
             })
             .collect();

@@ -120,9 +120,9 @@ impl Plan {
     }
 }
 
-/// Renders pass number `pass` of the rows `first .. first + count`, on all threads.
-pub fn render_rows(context: &Context, plan: &Plan, film: &mut Film, crop: Rect, pass: u32, (first, count): (u32, u32)) -> Counts {
-    let (rows, splats) = film.rows(first, count);
+/// Renders pass number `pass` of the rows of these numbers, on all threads.
+pub fn render_rows(context: &Context, plan: &Plan, film: &mut Film, crop: Rect, pass: u32, rows: &[u32]) -> Counts {
+    let (rows, splats) = film.rows(rows);
     rows.into_par_iter()
         .map_init(Sample::default, |sample, mut row| {
             let mut target = Target { splats, pass, crop, counts: Counts::default() };

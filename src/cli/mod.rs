@@ -78,9 +78,10 @@ fn refuse(error: &clap::Error) -> ExitCode {
     }
     let text = error.to_string();
     let text = text.strip_prefix("error: ").unwrap_or(&text);
-    let end = ["\n\nUsage:", "\n\nFor more information"].iter().filter_map(|part| text.find(part)).min().unwrap_or(text.len());
-    let text = text[..end].replace("\n\n  tip:", "; tip:");
-    fail(&Failure(format!("{text} (--help shows what there is)")))
+    // A guess at what was meant is worse than the list of what there is.
+    let end =
+        ["\n\n  tip:", "\n\nUsage:", "\n\nFor more information"].iter().filter_map(|part| text.find(part)).min().unwrap_or(text.len());
+    fail(&Failure(format!("{} (--help shows what there is)", &text[..end])))
 }
 
 /// Prints to stdout; a reader that has gone away (`… | head`) is no error.

@@ -17,6 +17,8 @@ use std::time::Duration;
 
 /// Samples per pixel unless the user says otherwise.
 const SPP: u32 = 64;
+/// What `--pyramid` writes into its folder.
+const PYRAMID_FILES: [&str; 2] = ["pyramid.exr", "contact-sheet.png"];
 /// Where there is no window, this is long enough to show something and short enough to wait for.
 const PATIENCE: Duration = Duration::from_secs(20);
 
@@ -75,14 +77,28 @@ pub fn without_window(why: &str, scene: &str) -> Result<(), Failure> {
 
 /// Finds a bad destination before the rendering that would be lost to it.
 fn check_outputs(args: &RenderArgs) -> Result<(), Failure> {
-    for path in args.output.iter().chain(&args.stats) {
-        check_writable(path)?;
+    let pyramid = args.pyramid.iter().flat_map(|folder| PYRAMID_FILES.map(|name| folder.join(name)));
+    let files: Vec<PathBuf> = args.output.iter().chain(&args.stats).cloned().chain(pyramid).collect();
+    for (i, path) in files.iter().enumerate() {
+        if files[..i].iter().any(|other| same_file(other, path)) {
+            return Err(Failure(format!("'{}' is named for two outputs; give each its own file", path.display())));
+        }
     }
     if let Some(folder) = &args.pyramid {
         create_folder(folder)?;
-        check_writable(&folder.join("pyramid.exr"))?;
     }
+    files.iter().try_for_each(|path| check_writable(path))?;
     Ok(())
+}
+
+/// Do two paths name the same regular file, whether or not it exists yet?
+fn same_file(a: &Path, b: &Path) -> bool {
+    let place = |path: &Path| {
+        let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        let folder = absolute.parent().and_then(|folder| folder.canonicalize().ok());
+        folder.zip(absolute.file_name().map(std::ffi::OsStr::to_owned)).map_or(absolute.clone(), |(folder, name)| folder.join(name))
+    };
+    !a.starts_with("/dev") && place(a) == place(b)
 }
 
 fn create_folder(folder: &Path) -> Result<(), Failure> {
@@ -130,7 +146,7 @@ impl Rendering {
         let layer = |strategy: Strategy, (kind, weighted)| Some((format!("{kind}.{strategy}"), self.session.layer(strategy, weighted)?));
         let layers: Vec<_> = self.shown.iter().flat_map(|&strategy| kinds.map(|kind| layer(strategy, kind))).flatten().collect();
         let layers: Vec<_> = layers.iter().map(|(name, pixels)| Layer { name, pixels }).collect();
-        let path = folder.join("pyramid.exr");
+        let path = folder.join(PYRAMID_FILES[0]);
         save_exr(&path, self.window(), &layers)?;
         Ok(path)
     }
@@ -144,7 +160,7 @@ impl Rendering {
                 sheet.add(strategy, &layer);
             }
         }
-        let (path, canvas) = (folder.join("contact-sheet.png"), sheet.draw());
+        let (path, canvas) = (folder.join(PYRAMID_FILES[1]), sheet.draw());
         save_png(&path, canvas.size, &canvas.rgb)?;
         Ok(path)
     }

@@ -208,7 +208,7 @@ fn make_frame(session: &Session, generation: u64, hidden: StrategySet) -> Frame 
     let factor = width.max(height).div_ceil(THUMBNAIL_SIDE).max(1);
     let small = [width.div_ceil(factor), height.div_ceil(factor)];
     let layers: Vec<_> = session.plan.strategies().filter_map(|x| Some((x, session.plan.layer(x, true)?, !hidden.contains(x)))).collect();
-    let means = session.film.means();
+    let means = session.film.preview();
 
     // One row of thumbnails per chunk of rows; `sums` is [strategy][column].
     let mut image = vec![Vec3::ZERO; width as usize * height as usize];

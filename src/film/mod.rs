@@ -107,16 +107,15 @@ impl Film {
         }
     }
 
-    /// The rows `first .. first + count`, each open for adding on its own thread, and the splats for all of them.
-    pub fn rows(&mut self, first: u32, count: u32) -> (Vec<Row<'_>>, Splats<'_>) {
+    /// The rows of these numbers, each open for adding on its own thread, and the splats for all of them.
+    pub fn rows(&mut self, numbers: &[u32]) -> (Vec<Row<'_>>, Splats<'_>) {
         let stride = self.size[0] as usize * self.layers.pixel * 3;
-        let (first, end) = (first as usize, (first + count) as usize);
         let splats = Splats { size: self.size, layers: self.layers.splat, cells: &self.splats, quantum: self.quantum };
-        let sums = self.sums[first * stride..end * stride].chunks_mut(stride);
-        let samples = self.row_samples[first..end].iter_mut();
+        let mut wanted = vec![false; self.row_samples.len()];
+        numbers.iter().for_each(|&y| wanted[y as usize] = true);
         let layers = self.layers;
-        let rows = sums.zip(samples).zip(first as u32..).map(|((sums, samples), y)| Row { y, sums, samples, layers }).collect();
-        (rows, splats)
+        let rows = self.sums.chunks_mut(stride).zip(&mut self.row_samples).zip(0..).filter(|(_, y)| wanted[*y as usize]);
+        (rows.map(|((sums, samples), y)| Row { y, sums, samples, layers }).collect(), splats)
     }
 
     /// Ends a pass: this pass's splats join those of the passes before.
@@ -133,7 +132,15 @@ impl Film {
     /// The means, for someone who looks at the film as it is now.
     pub fn means(&self) -> Means<'_> {
         let passes = self.mean_samples();
-        Means { film: self, splat_scale: if passes > 0.0 { 1.0 / passes } else { 0.0 } }
+        Means { film: self, splat_scale: if passes > 0.0 { 1.0 / passes } else { 0.0 }, shown: (0..self.size[1] as usize).collect() }
+    }
+
+    /// The means with every row that has no sample yet standing in for by the nearest that has one: for a first look.
+    pub fn preview(&self) -> Means<'_> {
+        let has = |y: usize| self.row_samples.get(y).is_some_and(|&samples| samples > 0);
+        let nearest = |y: usize| (0..self.row_samples.len()).find_map(|d| [y.wrapping_sub(d), y + d].into_iter().find(|&y| has(y)));
+        let shown = (0..self.row_samples.len()).map(|y| nearest(y).unwrap_or(y)).collect();
+        Means { shown, ..self.means() }
     }
 
     /// Samples per pixel, averaged over the rows: whole after every complete pass.
@@ -143,10 +150,11 @@ impl Film {
 }
 
 /// Sums over counts, per layer and pixel; pixels are counted row by row from the top left.
-#[derive(Clone, Copy)]
 pub struct Means<'a> {
     film: &'a Film,
     splat_scale: f64,
+    /// The row whose sums are shown in each row.
+    shown: Vec<usize>,
 }
 
 impl Means<'_> {
@@ -154,8 +162,10 @@ impl Means<'_> {
     #[inline]
     pub fn pixel(&self, layer: usize, pixel: usize) -> Vec3 {
         let film = self.film;
-        let at = (pixel * film.layers.pixel + layer) * 3;
-        let samples = film.row_samples[pixel / film.size[0] as usize];
+        let width = film.size[0] as usize;
+        let row = self.shown[pixel / width];
+        let at = ((row * width + pixel % width) * film.layers.pixel + layer) * 3;
+        let samples = film.row_samples[row];
         vec3(|c| film.sums[at + c], 1.0 / f64::from(samples.max(1)))
     }
 
@@ -221,7 +231,7 @@ mod tests {
         let values: Vec<f32> = (0..10_000).map(|i| ((i * 7919) % 10_007) as f32 * 1e-7).collect();
         let mean = |order: &mut dyn Iterator<Item = &f32>| {
             let mut film = film();
-            let (mut rows, splats) = film.rows(0, 1);
+            let (mut rows, splats) = film.rows(&[0]);
             for (i, &v) in order.enumerate() {
                 assert!(splats.add([1, 0], 0, Vec3::splat(v), [(i as f32 * 0.618).fract(); 3]));
             }
@@ -235,9 +245,21 @@ mod tests {
     }
 
     #[test]
+    fn a_preview_borrows_the_nearest_row() {
+        let mut film = Film::new([1, 4], Layers { pixel: 1, splat: 1 }, 1.0);
+        let (mut rows, _) = film.rows(&[1]);
+        rows[0].add(0, 0, Vec3::ONE);
+        rows[0].count_sample();
+        drop(rows);
+        let seen = |means: &Means| [0, 1, 2, 3].map(|pixel| means.pixel(0, pixel).x);
+        assert_eq!(seen(&film.means()), [0.0, 1.0, 0.0, 0.0]);
+        assert_eq!(seen(&film.preview()), [1.0; 4]);
+    }
+
+    #[test]
     fn a_splat_too_large_to_count_says_so() {
         let mut film = Film::new([1, 1], Layers { pixel: 1, splat: 1 }, 1.0);
-        let (_, splats) = film.rows(0, 1);
+        let (_, splats) = film.rows(&[0]);
         assert!(splats.add([0, 0], 0, Vec3::splat(1000.0), [0.5; 3]));
         assert!(!splats.add([0, 0], 0, Vec3::splat(1e9), [0.5; 3]));
     }
@@ -246,7 +268,7 @@ mod tests {
     fn ten_million_samples_keep_their_mean() {
         // An f32 sum of these is 10 % low (0.2699); an f32 running mean drifts.
         let mut film = Film::new([1, 1], Layers { pixel: 1, splat: 0 }, 1.0);
-        let (mut rows, _) = film.rows(0, 1);
+        let (mut rows, _) = film.rows(&[0]);
         for _ in 0..10_000_000 {
             rows[0].add(0, 0, Vec3::splat(0.3));
             rows[0].count_sample();

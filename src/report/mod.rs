@@ -11,7 +11,7 @@ use crate::bdpt::{Role, Strategy};
 /// What a strategy does, in the words of the field: "next event", "connect 2+3". The program names it so, (s,t) second.
 pub fn role_name(strategy: Strategy) -> String {
     match strategy.role() {
-        Role::EyeHitsLight => "eye hits light".to_owned(),
+        Role::EyeHitsLight => "eye path hits light".to_owned(),
         Role::NextEvent => "next event".to_owned(),
         Role::LightTracer => "light tracer".to_owned(),
         Role::LightHitsLens => "light hits lens".to_owned(),
@@ -26,6 +26,6 @@ mod tests {
     #[test]
     fn roles_by_name() {
         let names = [(0, 2), (1, 2), (2, 1), (1, 1), (2, 2), (3, 0)].map(|(s, t)| role_name(Strategy::new(s, t)));
-        assert_eq!(names, ["eye hits light", "next event", "light tracer", "light tracer", "connect 2+2", "light hits lens"]);
+        assert_eq!(names, ["eye path hits light", "next event", "light tracer", "light tracer", "connect 2+2", "light hits lens"]);
     }
 }

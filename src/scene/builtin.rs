@@ -55,6 +55,9 @@ pub fn open(name_or_path: &str) -> Result<Scene, SceneError> {
     if path.is_file() {
         return gltf::load(path);
     }
+    if path.is_dir() {
+        return Err(SceneError::file(path, "this is a folder; give the .gltf or .glb file in it"));
+    }
     let names = SCENES.map(|scene| scene.name).join(", ");
     Err(SceneError::file(path, format!("no such file and no built-in scene; give the path of a .gltf or .glb file, or one of {names}")))
 }

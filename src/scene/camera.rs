@@ -28,6 +28,8 @@ pub struct Camera {
 /// A camera with a film of a given size.
 #[derive(Clone, Debug)]
 pub struct View {
+    /// The camera's name.
+    pub name: String,
     /// Centre of projection, m.
     pub position: Vec3,
     right: Vec3,
@@ -47,6 +49,7 @@ impl View {
         let per_pass = 1.0 / (width as f32 * height as f32);
         let half_extent = Vec2::new(tan_y * width as f32 / height as f32, tan_y);
         Self {
+            name: camera.name.clone(),
             position: camera.position,
             right: camera.right,
             up: camera.up,
