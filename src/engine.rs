@@ -4,110 +4,19 @@
 use crate::bdpt::record::record as record_sample;
 use crate::bdpt::render::{Counts, Plan, image_mean, render_rows};
 use crate::bdpt::walk::Context;
-use crate::bdpt::{MAX_EDGES, PathRecord, Settings, Strategy, StrategySet};
+use crate::bdpt::{PathRecord, Strategy, StrategySet};
 use crate::film::Film;
 pub use crate::film::Rect as Crop;
 use crate::math::Vec3;
-use crate::scene::{Scene, View};
+use crate::scene::View;
 use serde::Serialize;
-use std::fmt;
-use std::sync::Arc;
 use std::time::Duration;
 use web_time::Instant;
 
+mod job;
 mod thread;
+pub use job::{FILM_BUDGET, Job, JobError, MAX_SIDE};
 pub use thread::{Engine, Frame, Thumbnail};
-
-/// Most bytes a film may take.
-pub const FILM_BUDGET: u128 = 4 << 30;
-/// Longest side of a film, pixels (a random number's counter packs both coordinates into one word).
-pub const MAX_SIDE: u32 = 32_768;
-
-/// What to render.
-#[derive(Clone, Debug)]
-pub struct Job {
-    /// The scene.
-    pub scene: Arc<Scene>,
-    /// Index into the scene's cameras.
-    pub camera: usize,
-    /// Film size, pixels.
-    pub size: [u32; 2],
-    /// The part of the film that is wanted; `None`: all of it.
-    pub crop: Option<Crop>,
-    /// The estimator's settings.
-    pub settings: Settings,
-    /// Keep one image per strategy, weighted.
-    pub weighted_layers: bool,
-    /// Keep one image per strategy, unweighted.
-    pub raw_layers: bool,
-}
-
-/// Why a job cannot be run: one line.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct JobError(pub String);
-
-impl fmt::Display for JobError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for JobError {}
-
-impl Job {
-    /// The job for a scene at the program's defaults: first camera, 512 × 512, K = 6, seed 0.
-    pub fn new(scene: Arc<Scene>) -> Self {
-        Self { scene, camera: 0, size: [512, 512], crop: None, settings: Settings::default(), weighted_layers: false, raw_layers: false }
-    }
-
-    /// The camera with its film.
-    pub fn view(&self) -> View {
-        View::new(&self.scene.cameras[self.camera], self.size[0], self.size[1])
-    }
-
-    /// Can this job be run? The message says what is wrong and what to do.
-    pub fn check(&self) -> Result<(), JobError> {
-        let fail = |text: String| Err(JobError(text));
-        let [width, height] = self.size;
-        if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE {
-            return fail(format!("size {width}x{height}: each side must be 1 to {MAX_SIDE} pixels"));
-        }
-        if self.settings.max_edges == 0 || self.settings.max_edges as usize > MAX_EDGES {
-            return fail(format!("max-edges {}: must be 1 to {MAX_EDGES}", self.settings.max_edges));
-        }
-        if self.camera >= self.scene.cameras.len() {
-            return fail(format!("camera {}: the scene has {}", self.camera, self.scene.cameras.len()));
-        }
-        if let Some(c) = self.crop {
-            let fits = |start: u32, length: u32, side: u32| length > 0 && start < side && length <= side - start;
-            if !fits(c.x, c.width, width) || !fits(c.y, c.height, height) {
-                return fail(format!(
-                    "crop {},{},{},{}: must be a non-empty part of the {width}x{height} film",
-                    c.x, c.y, c.width, c.height
-                ));
-            }
-        }
-        let h = &self.settings.heuristic;
-        if !(h.beta.is_finite() && (0.0..=100.0).contains(&h.beta)) {
-            return fail(format!("beta {}: must be 0 to 100", h.beta));
-        }
-        if !(0.0..=1.0).contains(&h.cutoff) {
-            return fail(format!("cutoff {}: must be 0 to 1", h.cutoff));
-        }
-        let bytes = Film::bytes(self.size, self.plan().layers);
-        if bytes > FILM_BUDGET {
-            let (need, have) = (bytes >> 20, FILM_BUDGET >> 20);
-            return fail(format!(
-                "a {width}x{height} film with these layers takes {need} MiB, the budget is {have} MiB: choose a smaller size, fewer edges or no pyramid"
-            ));
-        }
-        Ok(())
-    }
-
-    fn plan(&self) -> Plan {
-        Plan::new(&self.settings, &self.scene, self.weighted_layers, self.raw_layers)
-    }
-}
 
 /// Re-runs one sample of one pixel: the very path the renderer used. Takes well under a millisecond.
 pub fn record(job: &Job, pixel: [u32; 2], sample: u32) -> Result<PathRecord, JobError> {

@@ -1,0 +1,185 @@
+//! Making a record: the sample is run again by the renderer's own code, and written down.
+
+use super::{Measure, PathRecord, PathVertexRecord, RECORD_VERSION, SplitReason, SplitRecord, StrategyRecord, SubpathRecord, VertexRecord};
+use crate::bdpt::connect::{Contribution, Reason, Sample, segment};
+use crate::bdpt::mis::{log_densities, mis_weights_by_definition};
+use crate::bdpt::strategy::Strategy;
+use crate::bdpt::vertex::{DISCRETE, ON_LENS, ON_LIGHT, Subpath, Vertex};
+use crate::bdpt::walk::Context;
+use crate::math::direction_between;
+use crate::rng::SampleId;
+use crate::scene::{NONE, Scene};
+use std::f64::consts::LN_10;
+
+/// Re-runs sample `sample` of `pixel` and writes down everything about it. The caller sees to it that the pixel exists.
+pub fn record(context: &Context, pixel: [u32; 2], sample: u32) -> PathRecord {
+    let (scene, settings) = (context.scene, context.settings);
+    let id = SampleId { x: pixel[0], y: pixel[1], sample, seed: settings.seed };
+    let mut traced = Sample::default();
+    let k = settings.max_edges as usize;
+    traced.trace(context, id, k, k + 1);
+    let strategies = Strategy::all(settings.max_edges).map(|strategy| strategy_record(context, &mut traced, strategy)).collect();
+    PathRecord {
+        version: RECORD_VERSION,
+        scene: scene.name.clone(),
+        camera: context.view.name.clone(),
+        pixel,
+        sample,
+        seed: settings.seed,
+        size: context.view.size,
+        max_edges: settings.max_edges,
+        heuristic: settings.heuristic,
+        roulette: settings.roulette,
+        fresh_ends: settings.fresh_ends,
+        raster: traced.raster.to_array(),
+        light: subpath_record(scene, &traced.light),
+        light_end: traced.light.end,
+        eye: subpath_record(scene, &traced.eye),
+        eye_end: traced.eye.end,
+        strategies,
+    }
+}
+
+fn subpath_record(scene: &Scene, subpath: &Subpath) -> SubpathRecord {
+    SubpathRecord { vertices: subpath.vertices.iter().map(|v| vertex_record(scene, v)).collect(), end: subpath.end }
+}
+
+fn vertex_record(scene: &Scene, v: &Vertex) -> VertexRecord {
+    let on_surface = v.material != NONE;
+    VertexRecord {
+        position: scene.in_file(v.position),
+        n_g: v.n_g.to_array(),
+        n_s: v.n_s.to_array(),
+        kind: if v.flags & ON_LENS != 0 {
+            "lens"
+        } else if v.flags & ON_LIGHT != 0 {
+            "light"
+        } else {
+            "surface"
+        },
+        material: on_surface.then(|| scene.material_names[v.material as usize].clone()),
+        model: on_surface.then(|| scene.materials[v.material as usize].kind_name()),
+        emitter: v.emits(),
+        alpha: v.alpha.to_array(),
+        pdf_fwd: v.pdf_fwd_area,
+        // No light subpath can hit a pinhole: there is no density to speak of.
+        pdf_rev: (v.pdf_rev_area > 0.0 && v.flags & DISCRETE == 0).then_some(v.pdf_rev_area),
+        measure: if v.flags & DISCRETE != 0 { Measure::Discrete } else { Measure::Area },
+        delta: v.is_delta(),
+        survival: v.survival,
+    }
+}
+
+fn strategy_record(context: &Context, sample: &mut Sample, strategy: Strategy) -> StrategyRecord {
+    let outcome = match context.settings.strategies.contains(strategy) {
+        true => sample.evaluate(context, strategy),
+        false => Err(Reason::Removed),
+    };
+    let mut record = StrategyRecord {
+        s: strategy.s,
+        t: strategy.t,
+        feasible: false,
+        reason: None,
+        reason_text: None,
+        raster: None,
+        vertices: Vec::new(),
+        blocker: None,
+        p: None,
+        connection_term: [0.0; 3],
+        contribution_unweighted: [0.0; 3],
+        mis_weight: 0.0,
+        contribution: [0.0; 3],
+        splits: Vec::new(),
+    };
+    let joined = matches!(outcome, Ok(_) | Err(Reason::Blocked));
+    if let Err(Reason::Blocked) = outcome {
+        sample.join_blocked(context, strategy);
+    }
+    match outcome {
+        Ok(contribution) => record.carry(&contribution),
+        Err(reason) => {
+            record.reason = Some(reason);
+            record.reason_text = Some(reason.text());
+        }
+    }
+    let too_short =
+        matches!(record.reason, Some(Reason::LightSubpathTooShort | Reason::EyeSubpathTooShort | Reason::NoLight | Reason::Removed));
+    if !too_short {
+        record.write_path(context, sample, joined);
+    }
+    record
+}
+
+impl StrategyRecord {
+    fn carry(&mut self, contribution: &Contribution) {
+        self.feasible = true;
+        self.raster = Some(contribution.raster.to_array());
+        self.connection_term = contribution.connection_term.to_array();
+        self.contribution_unweighted = contribution.contribution_unweighted.to_array();
+        self.mis_weight = contribution.mis_weight;
+        self.contribution = (contribution.contribution_unweighted * contribution.mis_weight).to_array();
+    }
+
+    /// The path's vertices x₀…x_k, their densities where they could be joined, and the other splits where it carries light.
+    fn write_path(&mut self, context: &Context, sample: &Sample, joined: bool) {
+        let (s, t) = (self.s as usize, self.t as usize);
+        let y = sample.light_vertices(s);
+        let z = &sample.eye.vertices[..t];
+        let path = &sample.path;
+        let x = y.iter().chain(z.iter().rev());
+        self.vertices = x
+            .enumerate()
+            .map(|(i, v)| PathVertexRecord {
+                vertex: vertex_record(context.scene, v),
+                fresh: i == 0 && s == 1 && sample.fresh.is_some(),
+                p_light: (joined && v.flags & DISCRETE == 0).then(|| path.p_light[i]),
+                p_eye: joined.then(|| path.p_eye[i]),
+            })
+            .collect();
+        let ln_p: f64 = y.iter().chain(z).map(|v| f64::from(v.pdf_fwd_area).ln()).sum();
+        self.p = ln_p.is_finite().then_some(ln_p / LN_10);
+        if self.reason == Some(Reason::Blocked) {
+            let (a, b) = (&y[s - 1], &z[t - 1]);
+            let (w, _) = direction_between(a.position, b.position);
+            self.blocker = context.scene.blocker(&segment(a, b, w)).map(|point| context.scene.in_file(point.position));
+        }
+        if self.feasible {
+            self.splits = splits(context, sample);
+        }
+    }
+}
+
+/// The path joined last under every strategy that has its number of edges.
+fn splits(context: &Context, sample: &Sample) -> Vec<SplitRecord> {
+    let path = &sample.path;
+    let ln_p = log_densities(path);
+    let weights = mis_weights_by_definition(path, &path.active, &context.settings.heuristic);
+    (0..=path.k + 1)
+        .map(|s| {
+            let reason = split_reason(path.k, s, path.samplable[s], path.active[s], ln_p[s]);
+            SplitRecord {
+                s: s as u32,
+                t: (path.k + 1 - s) as u32,
+                p: (path.samplable[s] && ln_p[s].is_finite()).then_some(ln_p[s] / LN_10),
+                samplable: reason.is_none(),
+                reason,
+                reason_text: reason.map(SplitReason::text),
+                weight: weights[s],
+            }
+        })
+        .collect()
+}
+
+fn split_reason(k: usize, s: usize, samplable: bool, active: bool, ln_p: f64) -> Option<SplitReason> {
+    if s == k + 1 {
+        Some(SplitReason::PinholeCannotBeHit)
+    } else if !samplable {
+        Some(SplitReason::DiracEnd)
+    } else if ln_p == f64::NEG_INFINITY {
+        Some(SplitReason::ZeroDensity)
+    } else if !active {
+        Some(SplitReason::Removed)
+    } else {
+        None
+    }
+}
