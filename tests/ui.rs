@@ -15,6 +15,11 @@ use egui_kittest::wgpu::WgpuTestRenderer;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+#[path = "ui/layout.rs"]
+mod layout;
+#[path = "common/skip.rs"]
+mod skip;
+
 const SIZE: [u32; 2] = [64, 64];
 
 fn start(source: SceneSource) -> Harness<'static, App> {
@@ -332,9 +337,8 @@ fn everything_that_can_be_used_has_a_name() {
 fn a_graphics_adapter_draws_the_window_in_both_themes() {
     // Creating the renderer is what fails without an adapter.
     let Ok(renderers) = std::panic::catch_unwind(|| [true, false].map(|dark| (dark, WgpuTestRenderer::new()))) else {
-        assert!(std::env::var("BDPT_REQUIRE_GPU").map_or(true, |value| value != "1"), "BDPT_REQUIRE_GPU=1, and there is no adapter");
-        // libtest hides what a passing test prints, except on the terminal itself.
-        eprintln!("SKIPPED a_graphics_adapter_draws_the_window_in_both_themes: there is no graphics adapter");
+        assert!(!skip::required("BDPT_REQUIRE_GPU"), "BDPT_REQUIRE_GPU=1, and there is no adapter");
+        skip::skipped("a_graphics_adapter_draws_the_window_in_both_themes", "there is no graphics adapter");
         return;
     };
     for (dark, renderer) in renderers {
@@ -373,4 +377,29 @@ fn vertices_are_selected_on_the_path_page_and_the_same_path_is_shown_under_every
     assert_eq!(window.state().state().selection.vertex, 1);
     click(&mut window, Role::Button, "Splits");
     assert!(window.query_by_label("Σ w = 1.000000").is_some());
+}
+
+/// A measurement, not a test: from a click on the picture to the pass that draws that pixel's paths, at 512², K = 6, while
+/// rendering goes on. `cargo test --release --test ui -- --ignored --nocapture click`
+#[test]
+#[ignore = "a measurement"]
+fn click_to_paths_on_screen() {
+    let scene = builtin::open("cornell").expect("a built-in scene opens");
+    let mut window = Harness::builder()
+        .with_size(egui::vec2(1440.0, 900.0))
+        .allow_missing_glyphs()
+        .build_eframe(|context| App::new(Start { source: SceneSource::Ready(Arc::new(scene)), size: [512, 512] }, &context.egui_ctx, None));
+    until(&mut window, "a first frame", |app| app.live().frame().is_some());
+    let mut times: Vec<Duration> = (0..50u32)
+        .map(|i| {
+            let pixel = [i * 9 + 20, i * 7 + 40];
+            let began = Instant::now();
+            window.state_mut().state_mut().selection.pixel = pixel;
+            window.step();
+            assert_eq!(window.state().live().record(window.state().state()).expect("a record").pixel, pixel);
+            began.elapsed()
+        })
+        .collect();
+    times.sort();
+    println!("click to paths: median {:?}, worst {:?}", times[25], times[49]);
 }

@@ -5,8 +5,13 @@ use super::pictures::Pictures;
 use super::state::{Maximised, Preferences, State};
 use super::text::{Text, fill};
 use super::{help, image_view, inspector, keys, messages, pyramid, status_bar, theme, top_bar};
-use eframe::egui::{self, Align2, CentralPanel, Frame, Margin, Panel, Pos2, Rect, Ui, vec2};
+use eframe::egui::{self, Align2, CentralPanel, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
 use web_time::Instant;
+
+/// What the other panels leave to the image with its toolbar, points.
+const IMAGE_ROOM: Vec2 = vec2(420.0, 290.0);
+/// Height of the pyramid in a window with room for it: three rows of cells, points.
+const PYRAMID_HEIGHT: f32 = 356.0;
 
 const PREFERENCES: &str = "preferences";
 
@@ -90,13 +95,13 @@ impl App {
             if state.prefs.inspector_open {
                 let panel = Panel::right("inspector")
                     .frame(body)
-                    .default_size((room.x * 0.45).min(470.0))
-                    .size_range(360.0..=(room.x * 0.6).max(360.0));
+                    .default_size((room.x * 0.42).min(470.0))
+                    .size_range(340.0..=(room.x - IMAGE_ROOM.x).max(340.0));
                 panel.show(ui, |ui| inspector::show(ui, state, live));
             }
             if state.prefs.pyramid_open {
-                let panel = Panel::bottom("pyramid").frame(body).resizable(true).default_size(344.0);
-                panel.size_range(130.0..=(room.y * 0.75).max(130.0)).show(ui, |ui| pyramid::show(ui, state, live, pictures));
+                let panel = Panel::bottom("pyramid").frame(body).resizable(true).default_size((room.y * 0.43).min(PYRAMID_HEIGHT));
+                panel.size_range(130.0..=(room.y - IMAGE_ROOM.y).max(130.0)).show(ui, |ui| pyramid::show(ui, state, live, pictures));
             }
         }
         self.image = CentralPanel::default().frame(body).show(ui, |ui| image_view::show(ui, state, live, pictures)).inner;

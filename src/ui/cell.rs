@@ -6,7 +6,7 @@ use super::pictures::Pictures;
 use super::state::State;
 use super::text::{Text, fill};
 use super::theme;
-use super::widgets::{Icon, IconToggle, cell_text, full_name, icon_toggle, pair, role_help, role_name};
+use super::widgets::{Icon, IconToggle, aligned_text, cell_text, full_name, icon_toggle, pair, role_help, role_name};
 use crate::bdpt::Strategy;
 use crate::engine::Thumbnail;
 use eframe::egui::epaint::RectShape;
@@ -15,14 +15,14 @@ use eframe::egui::{
     pos2, vec2,
 };
 
-/// Height of the two lines below the picture.
-const CAPTION: f32 = 35.0;
+/// Height of a line of the caption, which covers the foot of the picture.
+const LINE: f32 = 15.0;
 
 /// The size of a cell: as wide as chosen, with the film's shape.
 pub fn size(state: &State) -> Vec2 {
     let width = state.prefs.cell;
     let aspect = state.size[1] as f32 / state.size[0].max(1) as f32;
-    vec2(width, (width * aspect).clamp(30.0, 2.0 * width) + CAPTION)
+    vec2(width, (width * aspect).clamp(66.0, 2.0 * width))
 }
 
 /// What a cell has to show.
@@ -31,6 +31,8 @@ struct Content<'a> {
     thumbnail: Option<&'a Thumbnail>,
     hidden: bool,
     removed: bool,
+    /// The first pass is not complete: no share says anything yet.
+    early: bool,
 }
 
 impl Content<'_> {
@@ -39,9 +41,14 @@ impl Content<'_> {
         match self.thumbnail {
             _ if self.removed => Some(state.say(Text::CellRemoved)),
             None => Some(state.say(Text::CellWaiting)),
-            Some(thumbnail) if thumbnail.share <= 0.0 => Some(state.say(Text::CellNothing)),
+            Some(thumbnail) if thumbnail.share <= 0.0 && !self.early => Some(state.say(Text::CellNothing)),
             Some(_) => None,
         }
+    }
+
+    fn share(&self) -> String {
+        let share = self.thumbnail.map_or(0.0, |x| x.share);
+        if self.early { "–".to_owned() } else { format::percent(share) }
     }
 }
 
@@ -54,6 +61,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
         thumbnail: frame.and_then(|frame| frame.thumbnails.iter().find(|x| x.strategy == strategy)),
         hidden: state.hidden.contains(strategy),
         removed: !state.settings.strategies.contains(strategy),
+        early: live.first_pass().is_some(),
     };
     let chosen = state.selection.strategy == strategy;
     let spoken = spoken(state, &content);
@@ -61,57 +69,60 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
     if response.clicked() {
         state.select_strategy(strategy);
     }
-    let picture = Rect::from_min_max(rect.min, pos2(rect.right(), rect.bottom() - CAPTION));
     if ui.is_rect_visible(rect) {
         let visible = frame.filter(|_| content.empty(state).is_none());
         let texture = visible.and_then(|frame| pictures.texture(state, frame, live.frame_number(), Some(strategy)));
-        paint(ui, state, &content, picture, texture);
-        caption(ui, state, &content, rect.with_min_y(picture.bottom()));
+        paint(ui, state, &content, rect, texture);
+        caption(ui, state, &content, rect.with_min_y(rect.bottom() - 2.0 * LINE));
         outline(ui, rect, chosen, &response);
     }
     tooltip(state, &content, response);
-    switches(ui, state, strategy, picture);
+    switches(ui, state, strategy, rect);
 }
 
 fn spoken(state: &State, content: &Content<'_>) -> String {
     let name = full_name(content.strategy, state.prefs.lang);
-    let share = content.thumbnail.map_or(0.0, |x| x.share);
     match content.empty(state) {
         Some(why) => format!("{name}: {why}"),
-        None => format!("{name}: {}", format::percent(share)),
+        None => format!("{name}: {}", content.share()),
     }
 }
 
 fn paint(ui: &Ui, state: &State, content: &Content<'_>, picture: Rect, texture: Option<egui::TextureId>) {
     let painter = ui.painter();
-    let round = CornerRadius { nw: 5, ne: 5, sw: 0, se: 0 };
-    painter.rect_filled(picture, round, if content.removed { theme::faint(ui.visuals()) } else { Color32::BLACK });
+    let round = CornerRadius::same(5);
+    let waiting = texture.is_none() && !content.thumbnail.is_some_and(|x| x.share <= 0.0);
+    let ground = if content.removed || waiting { theme::faint(ui.visuals()) } else { Color32::BLACK };
+    painter.rect_filled(picture, round, ground);
     if let Some(texture) = texture {
         let tint = if content.hidden { Color32::from_gray(70) } else { Color32::WHITE };
         let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
         painter.add(RectShape::filled(picture, round, tint).with_texture(texture, whole));
     }
-    let words = content.empty(state).or(content.hidden.then(|| state.say(Text::CellHidden)));
+    let words = match content.empty(state) {
+        // Not there yet: black would say that there is no light.
+        _ if waiting && !content.removed => Some("…"),
+        why => why.or(content.hidden.then(|| state.say(Text::CellHidden))),
+    };
     if let Some(words) = words {
-        let colour = if content.removed { ui.visuals().text_color() } else { Color32::from_gray(0xd0) };
-        let galley = painter.layout(words.to_owned(), FontId::proportional(12.0), colour, picture.width() - 10.0);
-        let lower = pos2(picture.center().x, picture.center().y + 8.0);
-        let min = Align2::CENTER_CENTER.anchor_size(lower, galley.size()).min;
-        painter.with_clip_rect(picture.intersect(painter.clip_rect())).galley(min, galley, colour);
+        let colour = if content.removed || waiting { ui.visuals().text_color() } else { Color32::from_gray(0xd0) };
+        let place = Rect::from_min_max(pos2(picture.left() + 5.0, picture.top() + 23.0), picture.max - vec2(5.0, 2.0 * LINE));
+        aligned_text(painter, place, Align2::CENTER_CENTER, words, FontId::proportional(11.5), colour);
     }
 }
 
+/// Role, (s,t) and share, over the foot of the picture.
 fn caption(ui: &Ui, state: &State, content: &Content<'_>, rect: Rect) {
-    let (painter, visuals) = (ui.painter(), ui.visuals());
-    painter.rect_filled(rect, CornerRadius { nw: 0, ne: 0, sw: 5, se: 5 }, visuals.faint_bg_color);
-    let inner = rect.shrink2(vec2(5.0, 1.5));
-    let (top, bottom) = inner.split_top_bottom_at_fraction(0.5);
-    let colour = if content.hidden || content.removed { visuals.weak_text_color() } else { visuals.text_color() };
+    let painter = ui.painter();
+    painter.rect_filled(rect, CornerRadius { nw: 0, ne: 0, sw: 5, se: 5 }, Color32::from_black_alpha(0xb8));
+    let (top, bottom) = rect.shrink2(vec2(5.0, 1.0)).split_top_bottom_at_fraction(0.5);
+    let weak = Color32::from_gray(0xb4);
+    let colour = if content.hidden || content.removed { weak } else { Color32::from_gray(0xf0) };
     cell_text(painter, top, &role_name(content.strategy, state.prefs.lang), FontId::proportional(11.5), colour);
-    cell_text(painter, bottom, &pair(content.strategy), FontId::proportional(11.5), visuals.weak_text_color());
-    if let Some(thumbnail) = content.thumbnail.filter(|x| x.share > 0.0 && !content.removed) {
-        let at = pos2(bottom.right(), bottom.center().y);
-        painter.text(at, Align2::RIGHT_CENTER, format::percent(thumbnail.share), FontId::proportional(12.0), colour);
+    let taken = cell_text(painter, bottom, &pair(content.strategy), FontId::proportional(11.0), weak);
+    if content.thumbnail.is_some_and(|x| content.early || x.share > 0.0) && !content.removed {
+        let rest = bottom.with_min_x(bottom.left() + taken + 4.0);
+        aligned_text(painter, rest, Align2::RIGHT_CENTER, &content.share(), FontId::proportional(11.5), colour);
     }
 }
 
@@ -120,7 +131,7 @@ fn outline(ui: &Ui, rect: Rect, chosen: bool, response: &Response) {
     let stroke = match (chosen, response.has_focus(), response.hovered()) {
         (true, ..) => Stroke::new(2.5, theme::SELECTED),
         (_, true, _) => Stroke::new(2.0, ui.visuals().selection.stroke.color),
-        (_, _, true) => Stroke::new(1.0, theme::SELECTED),
+        (_, _, true) => Stroke::new(1.5, ui.visuals().weak_text_color()),
         _ => line,
     };
     ui.painter().rect_stroke(rect, CornerRadius::same(5), stroke, StrokeKind::Inside);
@@ -130,8 +141,8 @@ fn tooltip(state: &State, content: &Content<'_>, response: Response) {
     response.on_hover_ui(|ui| {
         ui.label(RichText::new(full_name(content.strategy, state.prefs.lang)).strong());
         ui.label(state.say(role_help(content.strategy.role())));
-        if let Some(thumbnail) = content.thumbnail {
-            ui.label(fill(state.say(Text::ShareOfEnergy), &[&format::percent(thumbnail.share)]));
+        if content.thumbnail.is_some() {
+            ui.label(fill(state.say(Text::ShareOfEnergy), &[&content.share()]));
         }
         if let Some(why) = content.empty(state) {
             ui.label(RichText::new(why).weak());

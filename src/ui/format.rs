@@ -2,17 +2,34 @@
 
 use crate::bdpt::record::Measure;
 
-/// Scientific, four digits: "3.142e-2"; zero is "0".
-pub fn sci(value: f64) -> String {
-    if value == 0.0 { "0".to_owned() } else { format!("{value:.3e}") }
+/// Four digits: "0.03142"; scientific where that would be long: "3.142e-4". Zero is "0".
+pub fn number(value: f64) -> String {
+    digits(value, 4)
 }
 
-/// Three channels, scientific.
+/// Three digits, for a narrow column.
+pub fn short(value: f64) -> String {
+    digits(value, 3)
+}
+
+fn digits(value: f64, count: i32) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        "0".to_owned()
+    } else if (0.001..=9999.0).contains(&size) {
+        let decimals = (count - 1 - size.log10().floor() as i32).max(0) as usize;
+        format!("{value:.decimals$}")
+    } else {
+        format!("{value:.*e}", (count - 1) as usize)
+    }
+}
+
+/// Three channels.
 pub fn rgb(value: [f32; 3]) -> String {
     if value[0] == value[1] && value[1] == value[2] {
-        return sci(f64::from(value[0]));
+        return number(f64::from(value[0]));
     }
-    value.map(|v| sci(f64::from(v))).join("  ")
+    value.map(|v| number(f64::from(v))).join("  ")
 }
 
 /// A position, metres, to 0.1 mm near 1 m.
@@ -47,6 +64,9 @@ pub fn indexed(name: char, index: usize) -> String {
     std::iter::once(name).chain(low).collect()
 }
 
+/// The name of a light point drawn for one connection alone (the built-in fonts have no prime).
+pub const FRESH: &str = "y₀'";
+
 /// The brightness of a colour as one number (Rec. 709 luminance).
 pub fn luminance(rgb: [f32; 3]) -> f32 {
     0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
@@ -58,10 +78,13 @@ mod tests {
 
     #[test]
     fn numbers_read_the_same_everywhere() {
-        assert_eq!(sci(0.0), "0");
-        assert_eq!(sci(0.031_415_9), "3.142e-2");
-        assert_eq!(rgb([0.5; 3]), "5.000e-1");
-        assert_eq!(rgb([1.0, 0.0, 2.0]), "1.000e0  0  2.000e0");
+        assert_eq!(number(0.0), "0");
+        assert_eq!(number(0.031_415_9), "0.03142");
+        assert_eq!(number(-0.000_314_159), "-3.142e-4");
+        assert_eq!(number(123_456.0), "1.235e5");
+        assert_eq!([0.109, 2.05, 1234.0, 1.09e-7].map(short), ["0.109", "2.05", "1234", "1.09e-7"]);
+        assert_eq!(rgb([0.5; 3]), "0.5000");
+        assert_eq!(rgb([1.0, 0.0, 2.0]), "1.000  0  2.000");
         assert_eq!(weight(0.25), "0.250");
         assert_eq!(weight(2e-5), "2e-5");
         assert_eq!(percent(0.123_4), "12.3 %");

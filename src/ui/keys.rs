@@ -44,6 +44,13 @@ pub struct Binding {
     shift: bool,
 }
 
+impl Binding {
+    /// Does the key act again and again while it is held? What it switches on it must not switch off at once.
+    fn repeats(&self) -> bool {
+        matches!(self.action, Action::Nudge | Action::Sample | Action::Exposure | Action::Vertex)
+    }
+}
+
 /// The digits' order is the order of the strategies, the arrows' is left, right, up, down.
 pub const TABLE: &[Binding] = &[
     Binding { action: Action::Nudge, shown: "←  →  ↑  ↓", text: Text::KeyNudge, keys: ARROWS, shift: true },
@@ -73,16 +80,13 @@ pub fn obey(ctx: &egui::Context, state: &mut State, image: egui::Id) {
         return;
     }
     let elsewhere = ctx.memory(|memory| memory.focused()).is_some_and(|id| id != image);
-    for row in TABLE {
-        if elsewhere && matches!(row.action, Action::Nudge | Action::Vertex) {
-            continue;
-        }
-        for (index, key) in row.keys.iter().enumerate() {
-            let pressed = ctx.input(|input| {
-                let plain = !input.modifiers.ctrl && !input.modifiers.alt && !input.modifiers.command;
-                (plain && input.key_pressed(*key) && (row.shift || !input.modifiers.shift)).then_some(input.modifiers.shift)
-            });
-            if let Some(shift) = pressed {
+    for (pressed, shift, repeat) in ctx.input(presses) {
+        for row in TABLE {
+            let kept = elsewhere && matches!(row.action, Action::Nudge | Action::Vertex);
+            if kept || (shift && !row.shift) || (repeat && !row.repeats()) {
+                continue;
+            }
+            if let Some(index) = row.keys.iter().position(|key| *key == pressed) {
                 perform(state, row.action, index, shift);
             }
         }
@@ -90,6 +94,17 @@ pub fn obey(ctx: &egui::Context, state: &mut State, image: egui::Id) {
     if state.help && ctx.input(|input| input.key_pressed(Key::Escape)) {
         state.help = false;
     }
+}
+
+/// The keys pressed since the last pass, in order and each as often as it was, with Shift, and whether it is only held down.
+fn presses(input: &egui::InputState) -> Vec<(Key, bool, bool)> {
+    let key = |event: &egui::Event| match event {
+        egui::Event::Key { key, pressed: true, repeat, modifiers, .. } if !modifiers.ctrl && !modifiers.alt && !modifiers.command => {
+            Some((*key, modifiers.shift, *repeat))
+        }
+        _ => None,
+    };
+    input.events.iter().filter_map(key).collect()
 }
 
 /// A click leaves the keyboard to the image; only a text field keeps it. (Tab still goes anywhere.)

@@ -6,8 +6,15 @@ use super::text::Text;
 use super::theme;
 use eframe::egui::{Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Stroke, StrokeKind, Ui, pos2, vec2};
 
-const ROWS: &[Text] =
-    &[Text::LegendEye, Text::LegendLight, Text::LegendConnection, Text::LegendBlocked, Text::LegendSelected, Text::LegendSplat];
+const ROWS: &[Text] = &[
+    Text::LegendEye,
+    Text::LegendLight,
+    Text::LegendFresh,
+    Text::LegendConnection,
+    Text::LegendBlocked,
+    Text::LegendSelected,
+    Text::LegendSplat,
+];
 const ROW: f32 = 19.0;
 
 /// Draws the legend at the bottom left of `panel`, if it fits beside the image or is small against it.
@@ -45,6 +52,7 @@ fn sample(painter: &Painter, row: Text, left: Pos2) {
             marks::solid(painter, line, theme::LIGHT, 2.0);
             marks::square(painter, middle, 3.8, theme::LIGHT);
         }
+        Text::LegendFresh => marks::open_square(painter, middle, 4.5, theme::LIGHT),
         Text::LegendConnection => marks::dashed(painter, line, theme::CONNECTION),
         Text::LegendBlocked => {
             marks::dotted(painter, line, theme::BLOCKED);

@@ -37,12 +37,26 @@ pub struct Live {
     frame_number: u64,
     record: Option<(RecordKey, Result<Arc<PathRecord>, String>)>,
     records_made: u64,
+    /// The sentences about the settings and the scene refused last; they go when others are accepted.
+    refused: Option<String>,
+    unreadable: Option<String>,
 }
 
 impl Live {
     /// Nothing runs yet.
     pub fn new(ctx: &egui::Context) -> Self {
-        Self { ctx: ctx.clone(), engine: None, scene: None, loading: None, frame: None, frame_number: 0, record: None, records_made: 0 }
+        Self {
+            ctx: ctx.clone(),
+            engine: None,
+            scene: None,
+            loading: None,
+            frame: None,
+            frame_number: 0,
+            record: None,
+            records_made: 0,
+            refused: None,
+            unreadable: None,
+        }
     }
 
     /// Starts with a scene.
@@ -99,6 +113,11 @@ impl Live {
         self.frame_number
     }
 
+    /// How far the first pass is, 0…1, while it is not complete: then no number of the frame says anything yet.
+    pub fn first_pass(&self) -> Option<f64> {
+        self.frame.as_ref().map(|frame| frame.stats.spp).filter(|spp| *spp < 1.0)
+    }
+
     /// The record of the selection; `None` while there is none, or it belongs to an older selection.
     pub fn record(&self, state: &State) -> Option<&Arc<PathRecord>> {
         let (key, record) = self.record.as_ref()?;
@@ -142,12 +161,17 @@ impl Live {
         self.loading = None;
         match result {
             Ok(scene) => {
+                // The scene shown instead of one that could not be read is no cure.
+                if self.scene.is_some() {
+                    state.retract(self.unreadable.take());
+                }
                 if !scene.notes.is_empty() {
                     state.tell(false, format!("{}: {}", scene.name, scene.notes.join(" ")));
                 }
                 self.scene = Some(Arc::new(scene));
             }
             Err(error) => {
+                state.retract(self.unreadable.replace(error.clone()));
                 state.tell(true, error);
                 // With nothing on show yet, show something.
                 if self.scene.is_none()
@@ -180,6 +204,8 @@ impl Live {
                 Engine::start(job, move || ctx.request_repaint()).map(|engine| self.engine = Some(engine))
             }
         };
+        state.retract(self.refused.take());
+        self.refused = result.as_ref().err().map(|error| error.0.clone());
         match (result, &self.engine) {
             (Ok(()), _) if moved => state.selection.sample = 0,
             (Ok(()), _) => {}

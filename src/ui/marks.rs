@@ -53,6 +53,14 @@ pub fn square(painter: &Painter, at: Pos2, half: f32, colour: Color32) {
     }
 }
 
+/// An open square: a light point drawn for one connection alone.
+pub fn open_square(painter: &Painter, at: Pos2, half: f32, colour: Color32) {
+    let rect = Rect::from_center_size(at, Vec2::splat(2.0 * half));
+    for (width, stroke) in [(5.0, DARK), (4.0, PALE), (2.2, colour)] {
+        painter.rect_stroke(rect, CornerRadius::ZERO, Stroke::new(width, stroke), StrokeKind::Middle);
+    }
+}
+
 /// An open diamond: a contribution lands here; what lies below stays visible.
 pub fn diamond(painter: &Painter, at: Pos2, radius: f32, colour: Color32) {
     let r = radius;

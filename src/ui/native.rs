@@ -18,7 +18,7 @@ pub fn run(scene: Option<String>) -> Result<(), String> {
             .with_title("BDPT explorer")
             .with_app_id("bdpt-explorer")
             .with_inner_size([1440.0, 900.0])
-            .with_min_inner_size([800.0, 560.0])
+            .with_min_inner_size([960.0, 640.0])
             .with_drag_and_drop(true),
         // Ours, below: the default one would choose Japanese forms of Chinese characters on most machines.
         system_font_fallback: false,

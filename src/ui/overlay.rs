@@ -1,7 +1,7 @@
 //! The selected sample drawn over the image: both subpaths, the connections and what blocks them, and where splats land.
 //! Roles are told apart by shape as well as by colour, and every mark has a halo, so that it reads over any picture.
 
-use super::format::indexed;
+use super::format::{FRESH, indexed};
 use super::live::Live;
 use super::marks;
 use super::projection::Projector;
@@ -83,8 +83,9 @@ fn selected(painter: &Painter, strategy: &StrategyRecord, projector: &Projector)
             marks::solid(painter, line, theme::SELECTED, 3.0);
         }
     }
-    // The path may start at a fresh light point that is no vertex of the light subpath.
-    if let Some(at) = strategy.vertices.first().and_then(|x| projector.point(x.vertex.position)) {
+    // The path may start at a fresh light point that is no vertex of the light subpath: that has a mark of its own.
+    let start = strategy.vertices.first().filter(|x| !x.fresh);
+    if let Some(at) = start.and_then(|x| projector.point(x.vertex.position)) {
         marks::square(painter, at, 5.0, theme::SELECTED);
     }
     if let Some(at) = strategy.blocker.and_then(|p| projector.point(p)) {
@@ -96,6 +97,7 @@ fn vertices(painter: &Painter, state: &State, record: &PathRecord, projector: &P
     let shown = state.prefs.shown;
     let sides = [(shown.light, 'y', &record.light.vertices, theme::LIGHT), (shown.eye, 'z', &record.eye.vertices, theme::EYE)];
     let mut taken: Vec<Rect> = Vec::new();
+    fresh_points(painter, state, record, projector, &mut taken);
     for (_, name, list, colour) in sides.into_iter().filter(|(on, ..)| *on) {
         for (index, vertex) in list.iter().enumerate() {
             // The lens is where the picture is seen from: it has no place in it.
@@ -106,15 +108,32 @@ fn vertices(painter: &Painter, state: &State, record: &PathRecord, projector: &P
                 marks::round(painter, at, 4.5, colour);
             }
             if shown.names {
-                label(painter, at, &indexed(name, index), colour, &mut taken);
+                label(painter, at, &indexed(name, index), colour, 9.0, &mut taken);
             }
         }
     }
 }
 
+/// The light points drawn for one connection alone: open squares, the selected strategy's with its name.
+fn fresh_points(painter: &Painter, state: &State, record: &PathRecord, projector: &Projector, taken: &mut Vec<Rect>) {
+    let shown = state.prefs.shown;
+    for strategy in &record.strategies {
+        let chosen = strategy.strategy() == state.selection.strategy;
+        let drawn = chosen || (strategy.feasible && shown.connections) || (strategy.blocker.is_some() && shown.blocked);
+        let fresh = strategy.vertices.first().filter(|x| x.fresh && drawn);
+        let Some(at) = fresh.and_then(|x| projector.point(x.vertex.position)).filter(|at| projector.clip.contains(*at)) else { continue };
+        let colour = if chosen { theme::SELECTED } else { theme::LIGHT };
+        marks::open_square(painter, at, 5.5, colour);
+        if chosen && shown.names {
+            // Farther off: the ring of the selected vertex goes around this one, too.
+            label(painter, at, FRESH, colour, 13.0, taken);
+        }
+    }
+}
+
 /// Writes a name beside a mark, at the first of four places that is still free.
-fn label(painter: &Painter, at: Pos2, text: &str, colour: Color32, taken: &mut Vec<Rect>) {
-    let places = [vec2(9.0, -9.0), vec2(-9.0, -9.0), vec2(9.0, 10.0), vec2(-9.0, 10.0)];
+fn label(painter: &Painter, at: Pos2, text: &str, colour: Color32, off: f32, taken: &mut Vec<Rect>) {
+    let places = [vec2(off, -off), vec2(-off, -off), vec2(off, off + 1.0), vec2(-off, off + 1.0)];
     let size = vec2(18.0, 16.0);
     let free = |offset: &&egui::Vec2| {
         let rect = Rect::from_center_size(at + **offset + vec2(offset.x.signum() * 6.0, 0.0), size);

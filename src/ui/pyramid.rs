@@ -14,11 +14,15 @@ use eframe::egui::{self, Button, RichText, ScrollArea, Slider, Ui, vec2};
 const FAMILIES: [Role; 4] = [Role::EyeHitsLight, Role::NextEvent, Role::Connect, Role::LightTracer];
 const ROW_HEAD: f32 = 108.0;
 const GAP: f32 = 6.0;
+/// Length of the slider for the cells' size.
+const SLIDER: f32 = 70.0;
 
 /// Shows the pyramid.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures) {
-    ui.horizontal_wrapped(|ui| toolbar(ui, state));
     ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 5.0;
+        toolbar(ui, state);
+        ui.separator();
         families(ui, state);
         ui.separator();
         brightness(ui, state);
@@ -27,15 +31,13 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
     let size = cell::size(state);
     ScrollArea::both().id_salt("pyramid").auto_shrink(false).show(ui, |ui| {
         ui.spacing_mut().item_spacing = vec2(GAP, GAP);
-        let longest = ROW_HEAD + (state.settings.max_edges + 1) as f32 * (size.x + GAP);
-        let fits = longest <= ui.available_width();
+        // Each row is centred over the longest one, as far as that is in sight.
+        let width = |edges: u32| (edges + 1) as f32 * (size.x + GAP);
+        let middle = 0.5 * width(state.settings.max_edges).min(ui.available_width() - ROW_HEAD - GAP);
         for edges in 1..=state.settings.max_edges {
             ui.horizontal(|ui| {
                 row_head(ui, state, live, edges, size.y);
-                // Each row is centred over the longest one, if that is all in sight.
-                if fits {
-                    ui.add_space((state.settings.max_edges - edges) as f32 * 0.5 * (size.x + GAP));
-                }
+                ui.add_space((middle - 0.5 * width(edges)).max(0.0));
                 for strategy in row(edges) {
                     cell::show(ui, state, live, pictures, strategy);
                 }
@@ -98,9 +100,13 @@ fn brightness(ui: &mut Ui, state: &mut State) {
         let label = state.say(text);
         ui.selectable_value(&mut state.prefs.gain, gain, label).on_hover_text(Text::in_language(help, state.prefs.lang));
     }
+    // A slider does not wrap by itself.
+    if ui.available_size_before_wrap().x < SLIDER + 60.0 {
+        ui.end_row();
+    }
     let label = ui.label(state.say(Text::CellSize));
-    ui.spacing_mut().slider_width = 70.0;
-    ui.add(Slider::new(&mut state.prefs.cell, 72.0..=260.0).show_value(false)).labelled_by(label.id);
+    ui.spacing_mut().slider_width = SLIDER;
+    ui.add(Slider::new(&mut state.prefs.cell, 64.0..=260.0).show_value(false)).labelled_by(label.id);
 }
 
 fn row_head(ui: &mut Ui, state: &mut State, live: &Live, edges: u32, height: f32) {
@@ -108,8 +114,9 @@ fn row_head(ui: &mut Ui, state: &mut State, live: &Live, edges: u32, height: f32
         ui.set_width(ROW_HEAD);
         ui.spacing_mut().item_spacing = vec2(4.0, 3.0);
         ui.label(RichText::new(format!("k = {edges}")).strong()).on_hover_text(state.say(Text::HelpRow));
-        let share = live.frame().map(|frame| frame.thumbnails.iter().filter(|x| x.strategy.edges() == edges).map(|x| x.share).sum::<f64>());
-        ui.label(RichText::new(share.map_or(String::new(), format::percent)).small().weak()).on_hover_text(state.say(Text::HelpShare));
+        let counted = live.frame().filter(|_| live.first_pass().is_none());
+        let share = counted.map(|frame| frame.thumbnails.iter().filter(|x| x.strategy.edges() == edges).map(|x| x.share).sum::<f64>());
+        ui.label(RichText::new(share.map_or("–".to_owned(), format::percent)).small().weak()).on_hover_text(state.say(Text::HelpShare));
         let visible = row(edges).any(|x| !state.hidden.contains(x));
         let name = state.say(if visible { Text::HideRow } else { Text::ShowRow });
         let number = edges.to_string();

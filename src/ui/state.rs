@@ -136,7 +136,7 @@ impl Default for Preferences {
             dark: true,
             shown: Shown { eye: true, light: true, connections: true, blocked: true, splats: true, names: true, legend: true },
             gain: Gain::Each,
-            cell: 84.0,
+            cell: 82.0,
             tab: Tab::Strategies,
             sort: Sort::Length,
             inspector_open: true,
@@ -257,6 +257,18 @@ impl State {
             self.messages.push(message);
         }
     }
+
+    /// Takes an error back that is no longer true.
+    pub fn retract(&mut self, text: Option<String>) {
+        self.messages.retain(|message| !message.error || Some(&message.text) != text.as_ref());
+    }
+
+    /// How many of the strategies are hidden, and how many removed (these do not count as hidden).
+    pub fn left_out(&self) -> (usize, usize) {
+        let removed = |x: &Strategy| !self.settings.strategies.contains(*x);
+        let all = || Strategy::all(self.settings.max_edges);
+        (all().filter(|x| self.hidden.contains(*x) && !removed(x)).count(), all().filter(removed).count())
+    }
 }
 
 #[cfg(test)]
@@ -288,5 +300,10 @@ mod tests {
         state.tell(true, "no".into());
         state.tell(true, "no".into());
         assert_eq!(state.messages.len(), 1);
+        state.retract(Some("other".into()));
+        state.retract(None);
+        assert_eq!(state.messages.len(), 1);
+        state.retract(Some("no".into()));
+        assert!(state.messages.is_empty());
     }
 }

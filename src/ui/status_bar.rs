@@ -4,61 +4,138 @@ use super::format;
 use super::live::Live;
 use super::state::State;
 use super::text::{Text, fill};
-use eframe::egui::{self, Align, Layout, RichText, Ui};
+use eframe::egui::{self, Align, Color32, Label, Layout, RichText, Ui, WidgetText, vec2};
+
+/// A word of the bar. Where there is no room for all of them, the longest explanations give way first.
+struct Item {
+    text: RichText,
+    help: String,
+    /// Gives way before those with a lower number; 0 never does.
+    yields: u8,
+}
+
+impl Item {
+    fn new(text: impl Into<RichText>, help: impl Into<String>, yields: u8) -> Self {
+        Self { text: text.into(), help: help.into(), yields }
+    }
+}
 
 /// Shows the bar; `ui_ms` is the time the last pass of the window took.
 pub fn show(ui: &mut Ui, state: &State, live: &Live, ui_ms: f32) {
     ui.horizontal(|ui| {
         ui.style_mut().override_text_style = Some(egui::TextStyle::Small);
-        rendering(ui, state, live, ui_ms);
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| selection(ui, state, live));
+        ui.spacing_mut().item_spacing.x = GAP;
+        let (left, right) = (rendering(ui, state, live, ui_ms), selection(state, live));
+        let (count, room) = (left.len(), ui.available_width());
+        let items: Vec<Item> = left.into_iter().chain(right).collect();
+        let widths = fitted(ui, &items, room);
+        let taken: f32 = widths.iter().skip(count).filter(|width| **width > 0.0).map(|width| width + STEP).sum();
+        let mut first = true;
+        for (index, (item, width)) in items.into_iter().zip(widths).enumerate() {
+            if index == count {
+                ui.add_space((ui.available_width() - taken + STEP).max(0.0));
+            } else if !first && width > 0.0 {
+                ui.separator();
+            }
+            if width <= 0.0 {
+                continue;
+            }
+            first = false;
+            let place = vec2(width, ui.available_height());
+            ui.allocate_ui_with_layout(place, Layout::left_to_right(Align::Center), |ui| {
+                ui.add(Label::new(item.text).truncate()).on_hover_text(item.help);
+            });
+        }
     });
 }
 
-fn rendering(ui: &mut Ui, state: &State, live: &Live, ui_ms: f32) {
-    let Some(frame) = live.frame() else {
-        ui.label(state.say(if live.loading().is_some() { Text::Loading } else { Text::Waiting }));
-        return;
+const GAP: f32 = 6.0;
+/// A word's distance to the next one, with the line between them.
+const STEP: f32 = 6.0 + 2.0 * GAP;
+/// A word narrower than this says nothing.
+const LEAST: f32 = 40.0;
+
+/// The words' widths: as wide as they are, or less where the bar has no room; 0 leaves a word out.
+fn fitted(ui: &Ui, items: &[Item], room: f32) -> Vec<f32> {
+    let natural = |item: &Item| {
+        let text = WidgetText::from(item.text.clone());
+        text.into_galley(ui, Some(egui::TextWrapMode::Extend), f32::INFINITY, egui::TextStyle::Small).size().x.ceil() + 1.0
     };
+    let mut widths: Vec<f32> = items.iter().map(natural).collect();
+    let mut excess = widths.iter().map(|width| width + STEP).sum::<f32>() - room;
+    let mut order: Vec<usize> = (0..items.len()).filter(|index| items[*index].yields > 0).collect();
+    order.sort_by_key(|index| std::cmp::Reverse(items[*index].yields));
+    for index in order {
+        if excess <= 0.0 {
+            break;
+        }
+        let left = widths[index] - excess;
+        if left >= LEAST {
+            (widths[index], excess) = (left, 0.0);
+        } else {
+            excess -= widths[index] + STEP;
+            widths[index] = 0.0;
+        }
+    }
+    widths
+}
+
+fn rendering(ui: &Ui, state: &State, live: &Live, ui_ms: f32) -> Vec<Item> {
+    let mut items = Vec::new();
+    let Some(frame) = live.frame() else {
+        items.push(Item::new(state.say(if live.loading().is_some() { Text::Loading } else { Text::Waiting }), "", 1));
+        return items;
+    };
+    let coloured = |text: String, colour: Color32| RichText::new(text).color(colour);
     let stats = &frame.stats;
     let backend = stats.backend.to_uppercase();
     let who = if stats.adapter.is_empty() { backend } else { format!("{backend} · {}", stats.adapter) };
-    ui.label(fill(state.say(Text::Backend), &[&who, &stats.threads.to_string()])).on_hover_text(state.say(Text::HelpBackend));
-    ui.separator();
-    let samples = format!("{:.1}", stats.spp);
-    let samples = fill(state.say(Text::SamplesSoFar), &[&samples]);
-    ui.label(RichText::new(samples).strong()).on_hover_text(state.say(Text::HelpSamples));
-    if state.paused {
-        ui.colored_label(ui.visuals().warn_fg_color, state.say(Text::Paused));
+    let who = fill(state.say(Text::Backend), &[&who, &stats.threads.to_string()]);
+    items.push(Item::new(who.clone(), format!("{}\n{who}", state.say(Text::HelpBackend)), 4));
+    let samples = match live.first_pass() {
+        Some(fraction) => fill(state.say(Text::FirstPass), &[&format!("{:.0}", fraction * 100.0)]),
+        None => fill(state.say(Text::SamplesSoFar), &[&format!("{:.1}", stats.spp)]),
+    };
+    items.push(Item::new(RichText::new(samples).strong(), state.say(Text::HelpSamples), 0));
+    let (hidden, removed) = state.left_out();
+    let counts = [(hidden, Text::HiddenCount), (removed, Text::RemovedCount)];
+    let counts: Vec<String> = counts.iter().filter(|(n, _)| *n > 0).map(|(n, text)| fill(state.say(*text), &[&n.to_string()])).collect();
+    if !counts.is_empty() {
+        items.push(Item::new(coloured(counts.join(" · "), ui.visuals().warn_fg_color), state.say(Text::HelpLeftOut), 0));
     }
-    ui.separator();
+    if state.paused {
+        items.push(Item::new(coloured(state.say(Text::Paused).to_owned(), ui.visuals().warn_fg_color), "", 1));
+    }
     let speed = format!("{:.2}", frame.pairs_per_second * 1e-6);
-    ui.label(fill(state.say(Text::Speed), &[&speed])).on_hover_text(state.say(Text::HelpSpeed));
-    ui.separator();
-    ui.label(fill(state.say(Text::UiTime), &[&format!("{ui_ms:.1}")])).on_hover_text(state.say(Text::HelpUiTime));
+    items.push(Item::new(fill(state.say(Text::Speed), &[&speed]), state.say(Text::HelpSpeed), 5));
+    items.push(Item::new(fill(state.say(Text::UiTime), &[&format!("{ui_ms:.1}")]), state.say(Text::HelpUiTime), 6));
     if let Some(scene) = live.scene().filter(|scene| !scene.notes.is_empty()) {
-        ui.separator();
         let count = scene.notes.len().to_string();
-        ui.label(fill(state.say(Text::NotesCount), &[&count])).on_hover_text(scene.notes.join("\n"));
+        items.push(Item::new(fill(state.say(Text::NotesCount), &[&count]), scene.notes.join("\n"), 3));
     }
     if stats.non_finite > 0 {
-        ui.separator();
-        ui.colored_label(ui.visuals().error_fg_color, fill(state.say(Text::NonFinite), &[&stats.non_finite.to_string()]));
+        let text = fill(state.say(Text::NonFinite), &[&stats.non_finite.to_string()]);
+        items.push(Item::new(coloured(text.clone(), ui.visuals().error_fg_color), text, 2));
     }
+    items
 }
 
-fn selection(ui: &mut Ui, state: &State, live: &Live) {
+fn selection(state: &State, live: &Live) -> Vec<Item> {
     let selection = &state.selection;
     let [x, y] = selection.pixel;
+    let words = [x, y, selection.sample, state.settings.seed].map(|v| v.to_string());
+    let words = fill(state.say(Text::WhichSample), &words.each_ref().map(String::as_str));
+    let mut items = vec![Item::new(words.clone(), words, 2)];
     if let Some(frame) = live.frame()
         && let Some(value) = frame.image.get((y as usize) * frame.size[0] as usize + x as usize)
         && frame.size == state.size
     {
-        let text = value.to_array().map(|v| format::sci(f64::from(v))).join("  ");
-        ui.label(RichText::new(text).monospace()).on_hover_text(state.say(Text::HelpPixelValue));
-        ui.label(state.say(Text::PixelValue));
-        ui.separator();
+        let value = match live.first_pass() {
+            Some(_) => "–".to_owned(),
+            None => value.to_array().map(|v| format::number(f64::from(v))).join("  "),
+        };
+        let text = RichText::new(format!("{} {value}", state.say(Text::PixelValue))).monospace().small();
+        items.push(Item::new(text, state.say(Text::HelpPixelValue), 0));
     }
-    let words = [x, y, selection.sample, state.settings.seed].map(|v| v.to_string());
-    ui.label(fill(state.say(Text::WhichSample), &words.each_ref().map(String::as_str)));
+    items
 }

@@ -108,6 +108,7 @@ texts! {
     LegendBlocked: "blocked connection", "被遮挡的连接边";
     LegendSelected: "selected strategy, vertex", "所选策略与顶点";
     LegendSplat: "lands on this pixel (t = 1)", "贡献落在此像素（t = 1）";
+    LegendFresh: "fresh light point y₀' (s = 1)", "新取的光源点 y₀'（s = 1）";
     HelpSplat: "This strategy's contribution lands on this pixel, not on the selected one.", "该策略的贡献落在这个像素上，而不是所选像素。";
     // Status bar.
     Loading: "Loading the scene …", "正在载入场景……";
@@ -116,6 +117,10 @@ texts! {
     HelpBackend: "What renders the image", "由谁渲染图像";
     SamplesSoFar: "{} samples per pixel", "每像素 {} 个采样";
     HelpSamples: "Samples so far: pairs of a light and an eye subpath per pixel", "已完成的采样：每像素的光源与视线子路径对数";
+    FirstPass: "first pass: {} %", "第一遍：{} %";
+    HiddenCount: "{} hidden", "隐藏 {} 个";
+    RemovedCount: "{} removed", "移除 {} 个";
+    HelpLeftOut: "Hidden strategies are left out of the image, whose light is then missing. Removed ones do not run; the others share their weight.", "隐藏的策略不计入图像，因此缺少它们的光；移除的策略不再运行，权重由其余策略分配。";
     Paused: "paused", "已暂停";
     Speed: "{} Mpairs/s", "{} 百万对/秒";
     HelpSpeed: "Million pairs of a light and an eye subpath per second", "每秒完成的子路径对（百万）";
@@ -132,6 +137,8 @@ texts! {
     Previous: "Previous", "上一个";
     Next: "Next", "下一个";
     FeasibleCount: "{} of {} strategies carry light", "{} / {} 个策略携带光";
+    SampleAdds: "This sample adds {} to this pixel", "该采样为此像素贡献 {}";
+    HelpSampleAdds: "RGB, W m⁻² sr⁻¹: the sum of the weighted contributions that land on this pixel, hidden strategies included. The pixel is the mean over all samples, and gets light tracer contributions from other pixels' samples, too.", "RGB，W m⁻² sr⁻¹：落在此像素上的加权贡献之和，包括隐藏的策略。像素值是所有采样的平均，并且还会收到其他像素采样的光源追踪贡献。";
     NoRecord: "Click a pixel of the image.", "请点击图像中的一个像素。";
     TabStrategies: "Strategies", "采样策略";
     TabPath: "Path", "路径";
@@ -147,8 +154,10 @@ texts! {
     HeadWeight: "weight w", "权重 w";
     HeadContribution: "contribution", "贡献";
     HeadLandsAt: "lands at", "落点";
+    HelpHeadContribution: "Luminance of the weighted contribution w C*, W m⁻² sr⁻¹; the square shows its colour", "加权贡献 w C* 的亮度，W m⁻² sr⁻¹；方块表示其颜色";
     LengthGroup: "paths of {} edges", "{} 条边的路径";
     SpokenWeight: "weight {}", "权重 {}";
+    SpokenHidden: ", hidden", "，已隐藏";
     NumberWeight: "weight w", "权重 w";
     NumberContribution: "contribution w C* (RGB)", "贡献 w C*（RGB）";
     NumberUnweighted: "unweighted C*", "未加权 C*";
@@ -160,7 +169,7 @@ texts! {
     WalkFull: "full path", "完整路径";
     WalkLight: "light subpath", "光源子路径";
     WalkEye: "eye subpath", "视线子路径";
-    FreshPoint: "fresh point", "新取的点";
+    FreshPoint: "fresh light point", "新取的光源点";
     KindLens: "lens", "镜头";
     KindLight: "light", "光源";
     KindSurface: "surface", "表面";
@@ -183,6 +192,7 @@ texts! {
     EndAbsorbed: "It ends here: its last vertex scatters nothing further.", "到此结束：最后一个顶点不再散射。";
     EndNotNeeded: "It ends here: no strategy in use needs more.", "到此结束：没有策略需要更多顶点。";
     SplitsIntro: "This very path, as each strategy would make it: density p (log scale) and weight w.", "同一条路径由各策略生成时：概率密度 p（对数刻度）与权重 w。";
+    SplitsScale: "Bar of p: log scale over the range of this path, the least dense keeps a tenth. p is per product area (m⁻² for each vertex). Bar of w: linear, 0 to 1.", "p 的条：按此路径的范围取对数刻度，密度最小者占十分之一；p 以面积乘积为测度（每个顶点 m⁻²）。w 的条：线性，0 到 1。";
     NoSplits: "Splits are shown for strategies that carry light: choose one in the table.", "仅对携带光的策略显示拆分：请在表中选择一个。";
     HelpWeightSum: "The weights of all strategies that can make this path sum to one.", "所有能生成该路径的策略，权重之和为一。";
     SplitPinhole: "a pinhole has no area to be hit", "针孔没有面积，无法命中";

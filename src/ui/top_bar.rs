@@ -7,10 +7,14 @@ use super::text::{Lang, Text};
 use super::widgets::labelled;
 use crate::bdpt::{HeuristicKind, StrategySet};
 use crate::scene::builtin;
-use eframe::egui::{self, Align, ComboBox, DragValue, Layout, Ui};
+use eframe::egui::{self, Align, ComboBox, DragValue, Layout, PopupCloseBehavior, Ui, UiBuilder};
 
 /// Film sizes on offer.
 pub const SIZES: &[[u32; 2]] = &[[128, 128], [256, 256], [512, 512], [768, 768], [1024, 1024], [640, 360], [960, 540]];
+
+/// The scene menu holds a path to read and every built-in scene without scrolling, points.
+const SCENE_MENU_WIDTH: f32 = 320.0;
+const SCENE_MENU_HEIGHT: f32 = 560.0;
 
 const HEURISTICS: &[(HeuristicKind, Text, Text)] = &[
     (HeuristicKind::Power, Text::Power, Text::HelpPower),
@@ -37,18 +41,33 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
         if ui.button(state.say(Text::Restart)).on_hover_text(state.say(Text::HelpRestart)).clicked() {
             state.restart = true;
         }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| window_switches(ui, state));
+        at_the_right(ui, |ui| window_switches(ui, state));
     });
 }
 
+/// Puts what is added last into the row's right end, or into a row of its own where it does not fit any more.
+fn at_the_right(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
+    let id = ui.scope_id().with("width at the right");
+    // As wide as it was in the last pass; not known in the first.
+    let width: f32 = ui.data(|data| data.get_temp(id)).unwrap_or(0.0);
+    if ui.available_size_before_wrap().x < width + ui.spacing().item_spacing.x {
+        ui.end_row();
+    }
+    ui.add_space((ui.available_size_before_wrap().x - width - 1.0).max(0.0));
+    let shown = ui.scope_builder(UiBuilder::new().layout(Layout::left_to_right(Align::Center)), add).response.rect.width();
+    if (shown - width).abs() > 0.5 {
+        ui.data_mut(|data| data.insert_temp(id, shown));
+        ui.ctx().request_discard("the width of the switches");
+    }
+}
+
 fn window_switches(ui: &mut Ui, state: &mut State) {
-    if ui.button("?").on_hover_text(keys::hint(state, Text::KeyHelp, Action::Help)).clicked() {
-        state.help = !state.help;
-    }
-    let theme = state.say(if state.prefs.dark { Text::LightTheme } else { Text::DarkTheme });
-    if ui.button(theme).on_hover_text(state.say(Text::HelpTheme)).clicked() {
-        state.prefs.dark = !state.prefs.dark;
-    }
+    let help = Text::HelpTogglePanel.in_language(state.prefs.lang);
+    let label = state.say(Text::Inspector);
+    ui.toggle_value(&mut state.prefs.inspector_open, label).on_hover_text(help);
+    let label = state.say(Text::Pyramid);
+    ui.toggle_value(&mut state.prefs.pyramid_open, label).on_hover_text(help);
+    ui.separator();
     let (name, other) = match state.prefs.lang {
         Lang::En => ("中文", Lang::Zh),
         Lang::Zh => ("English", Lang::En),
@@ -56,28 +75,39 @@ fn window_switches(ui: &mut Ui, state: &mut State) {
     if ui.button(name).on_hover_text(state.say(Text::HelpLanguage)).clicked() {
         state.prefs.lang = other;
     }
-    ui.separator();
-    let label = state.say(Text::Pyramid);
-    ui.toggle_value(&mut state.prefs.pyramid_open, label).on_hover_text(Text::HelpTogglePanel.in_language(state.prefs.lang));
-    let label = state.say(Text::Inspector);
-    ui.toggle_value(&mut state.prefs.inspector_open, label).on_hover_text(Text::HelpTogglePanel.in_language(state.prefs.lang));
+    let theme = state.say(if state.prefs.dark { Text::LightTheme } else { Text::DarkTheme });
+    if ui.button(theme).on_hover_text(state.say(Text::HelpTheme)).clicked() {
+        state.prefs.dark = !state.prefs.dark;
+    }
+    if ui.button("?").on_hover_text(keys::hint(state, Text::KeyHelp, Action::Help)).clicked() {
+        state.help = !state.help;
+    }
 }
 
 fn scene_menu(ui: &mut Ui, state: &mut State, live: &Live) {
     let current = live.loading().or(live.scene().map(|scene| scene.name.as_str())).unwrap_or("–").to_owned();
     let label = ui.label(state.say(Text::Scene));
-    let response = ComboBox::from_id_salt("scene").selected_text(current.as_str()).width(130.0).show_ui(ui, |ui| {
+    // A click into the path's field must not close the menu.
+    let combo = ComboBox::from_id_salt("scene").close_behavior(PopupCloseBehavior::CloseOnClickOutside).height(SCENE_MENU_HEIGHT);
+    let response = combo.selected_text(current.as_str()).width(130.0).show_ui(ui, |ui| {
+        ui.set_min_width(SCENE_MENU_WIDTH);
         for scene in builtin::list() {
             if ui.selectable_label(scene.name == current, scene.name).on_hover_text(scene.teaches).clicked() {
                 state.open_scene = Some(scene.name.to_owned());
+                ui.close();
             }
         }
         ui.separator();
-        ui.label(state.say(Text::ScenePath));
+        let label = ui.label(state.say(Text::ScenePath));
         let hint = state.say(Text::ScenePathHint);
-        let field = egui::TextEdit::singleline(&mut state.scene_field).hint_text(hint).desired_width(240.0);
-        let entered = ui.add(field).lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
-        let open = ui.button(state.say(Text::Open)).clicked();
+        let (entered, open) = ui
+            .horizontal(|ui| {
+                let field = egui::TextEdit::singleline(&mut state.scene_field).hint_text(hint).desired_width(SCENE_MENU_WIDTH - 70.0);
+                let field = ui.add(field).labelled_by(label.id);
+                let entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+                (entered, ui.button(state.say(Text::Open)).clicked())
+            })
+            .inner;
         if (entered || open) && !state.scene_field.trim().is_empty() {
             state.open_scene = Some(state.scene_field.trim().to_owned());
             ui.close();

@@ -3,9 +3,8 @@
 use super::text::{Lang, Text, fill};
 use super::theme;
 use crate::bdpt::{Role as StrategyRole, Strategy};
-use eframe::egui::{
-    self, Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
-};
+use eframe::egui::text::{LayoutJob, TextWrapping};
+use eframe::egui::{self, Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, vec2};
 
 /// A strategy by its role: "next event", "connect 2+2", …
 pub fn role_name(strategy: Strategy, lang: Lang) -> String {
@@ -56,10 +55,22 @@ pub fn swatch(painter: &Painter, visuals: &egui::Visuals, rect: Rect, colour: Co
     painter.rect(rect, CornerRadius::same(2), colour, border, egui::StrokeKind::Inside);
 }
 
-/// Text in a column of a row that is painted as a whole, cut off at the column's right edge.
-pub fn cell_text(painter: &Painter, column: Rect, text: &str, font: FontId, colour: Color32) {
-    let clipped = painter.with_clip_rect(column.intersect(painter.clip_rect()));
-    clipped.text(pos2(column.left(), column.center().y), Align2::LEFT_CENTER, text, font, colour);
+/// Text in a column of a row that is painted as a whole, in one line, with an ellipsis where the column ends. Returns its width.
+pub fn cell_text(painter: &Painter, column: Rect, text: &str, font: FontId, colour: Color32) -> f32 {
+    aligned_text(painter, column, Align2::LEFT_CENTER, text, font, colour)
+}
+
+/// The same, anywhere in the column.
+pub fn aligned_text(painter: &Painter, column: Rect, align: Align2, text: &str, font: FontId, colour: Color32) -> f32 {
+    if column.width() < font.size {
+        return 0.0;
+    }
+    let mut job = LayoutJob::simple_singleline(text.to_owned(), font, colour);
+    job.wrap = TextWrapping::truncate_at_width(column.width());
+    let galley = painter.layout_job(job);
+    let width = galley.size().x;
+    painter.galley(align.align_size_within_rect(galley.size(), column).min, galley, colour);
+    width
 }
 
 /// The picture on an icon button.

@@ -90,7 +90,7 @@ fn furnace_is_closed_and_glows_inwards() {
 fn flight_helmet_loads() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/gltf/FlightHelmet/FlightHelmet.gltf");
     if !path.exists() {
-        eprintln!("SKIPPED flight_helmet_loads: the model is not beside the repository");
+        crate::skip::skipped("flight_helmet_loads", "the model is not beside the repository");
         return;
     }
     let start = std::time::Instant::now();

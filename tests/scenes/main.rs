@@ -7,6 +7,8 @@ mod geometry;
 #[path = "../common/glb.rs"]
 mod glb;
 mod materials;
+#[path = "../common/skip.rs"]
+mod skip;
 
 use bdpt_explorer::math::{DVec3, Vec2, Vec3};
 use bdpt_explorer::scene::{DIELECTRIC, LAMBERT, MIRROR, NONE, Ray, Scene, THIN_DIELECTRIC, View, builtin, gltf};

@@ -4,12 +4,16 @@ mod path;
 mod splits;
 mod strategies;
 
+use super::format;
 use super::keys::{self, Action};
 use super::live::Live;
 use super::state::{State, Tab};
 use super::text::{Text, fill};
 use super::widgets::{full_name, labelled};
-use eframe::egui::{self, DragValue, RichText, ScrollArea, Ui};
+use crate::bdpt::PathRecord;
+use crate::bdpt::record::StrategyRecord;
+use crate::math::Vec3;
+use eframe::egui::{self, DragValue, Label, RichText, ScrollArea, Ui};
 
 /// Shows the inspector.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
@@ -48,6 +52,11 @@ fn header(ui: &mut Ui, state: &mut State, live: &Live) {
             ui.label(RichText::new(fill(state.say(Text::FeasibleCount), &[&feasible, &all])).weak());
         }
     });
+    if let Some(record) = live.record(state) {
+        let sum = format::rgb(on_its_pixel(record).to_array());
+        let words = RichText::new(fill(state.say(Text::SampleAdds), &[&sum]));
+        ui.add(Label::new(words).truncate()).on_hover_text(state.say(Text::HelpSampleAdds));
+    }
     ui.horizontal_wrapped(|ui| {
         for (tab, text, help) in [
             (Tab::Strategies, Text::TabStrategies, Text::HelpTabStrategies),
@@ -58,6 +67,13 @@ fn header(ui: &mut Ui, state: &mut State, live: &Live) {
             ui.selectable_value(&mut state.prefs.tab, tab, label).on_hover_text(state.say(help));
         }
     });
+}
+
+/// What the sample adds to its own pixel: strategies that stay there, and those whose contribution happens to land there.
+fn on_its_pixel(record: &PathRecord) -> Vec3 {
+    let here = |raster: [f32; 2]| raster.map(|v| v.floor() as i64) == record.pixel.map(i64::from);
+    let lands = |x: &&StrategyRecord| x.feasible && (x.strategy().stays_in_pixel() || x.raster.is_some_and(here));
+    record.strategies.iter().filter(lands).map(|x| Vec3::from(x.contribution)).sum()
 }
 
 /// The line that names the selected strategy, on the pages that are about it.

@@ -1,11 +1,13 @@
 //! The path page: every vertex of the selected strategy's full path, or of either subpath, with its densities.
 
 use crate::bdpt::record::{PathRecord, PathVertexRecord, StrategyRecord, SubpathRecord, VertexRecord};
-use crate::ui::format::{self, indexed, position, rgb, sci, unit};
+use crate::ui::format::{self, FRESH, indexed, number, position, rgb, unit};
 use crate::ui::state::{State, Walk};
 use crate::ui::text::{Text, end_text, fill, reason_text};
 use crate::ui::theme;
-use eframe::egui::{Color32, CornerRadius, Frame, Grid, Margin, RichText, Role, Sense, Stroke, Ui, UiBuilder, WidgetInfo, vec2};
+use eframe::egui::{
+    Color32, CornerRadius, Frame, Grid, Margin, RichText, Role, Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, vec2,
+};
 
 /// Shows the page.
 pub fn show(ui: &mut Ui, state: &mut State, record: &PathRecord) {
@@ -36,7 +38,7 @@ fn full(ui: &mut Ui, state: &mut State, strategy: &StrategyRecord) {
     for (index, vertex) in strategy.vertices.iter().enumerate() {
         // Next event draws a light point of its own: it is no vertex of the light subpath.
         let own = if vertex.fresh {
-            state.say(Text::FreshPoint).to_owned()
+            FRESH.to_owned()
         } else if index < s {
             indexed('y', index)
         } else {
@@ -45,7 +47,7 @@ fn full(ui: &mut Ui, state: &mut State, strategy: &StrategyRecord) {
         let colour = if index < s { theme::LIGHT } else { theme::EYE };
         let title = format!("{} = {own}", indexed('x', index));
         let clicked = card(ui, state.selection.vertex == index, &title, |ui| {
-            head(ui, state, &title, colour, &vertex.vertex);
+            head(ui, state, &title, colour, vertex.fresh, &vertex.vertex);
             full_numbers(ui, state, index, vertex);
         });
         if clicked {
@@ -65,7 +67,7 @@ fn subpath(ui: &mut Ui, state: &State, name: char, colour: Color32, subpath: &Su
     for (index, vertex) in subpath.vertices.iter().enumerate() {
         let title = indexed(name, index);
         card(ui, false, &title, |ui| {
-            head(ui, state, &title, colour, vertex);
+            head(ui, state, &title, colour, false, vertex);
             grid(ui, (name, index), |ui| {
                 common_rows(ui, state, vertex);
                 row(ui, state.say(Text::PdfFwd), &density(vertex.pdf_fwd, vertex), state.say(Text::HelpPdfFwd));
@@ -96,10 +98,12 @@ fn card(ui: &mut Ui, chosen: bool, name: &str, add: impl FnOnce(&mut Ui)) -> boo
     response.clicked()
 }
 
-fn head(ui: &mut Ui, state: &State, title: &str, colour: Color32, vertex: &VertexRecord) {
+fn head(ui: &mut Ui, state: &State, title: &str, colour: Color32, fresh: bool, vertex: &VertexRecord) {
     ui.horizontal_wrapped(|ui| {
         let (rect, _) = ui.allocate_exact_size(vec2(10.0, 10.0), Sense::hover());
-        if colour == theme::LIGHT {
+        if fresh {
+            ui.painter().rect_stroke(rect.shrink(1.0), CornerRadius::ZERO, Stroke::new(2.0, colour), StrokeKind::Middle);
+        } else if colour == theme::LIGHT {
             ui.painter().rect_filled(rect, CornerRadius::ZERO, colour);
         } else {
             ui.painter().circle_filled(rect.center(), 5.0, colour);
@@ -112,6 +116,9 @@ fn head(ui: &mut Ui, state: &State, title: &str, colour: Color32, vertex: &Verte
         };
         let material = vertex.material.iter().map(String::as_str).chain(vertex.model).collect::<Vec<_>>().join(", ");
         ui.label(if material.is_empty() { what.to_owned() } else { format!("{what} · {material}") });
+        if fresh {
+            ui.label(RichText::new(state.say(Text::FreshPoint)).small().weak());
+        }
         if vertex.emitter && vertex.kind == "surface" {
             ui.label(RichText::new(state.say(Text::Emitter)).small().weak());
         }
@@ -125,9 +132,8 @@ fn full_numbers(ui: &mut Ui, state: &State, index: usize, vertex: &PathVertexRec
     grid(ui, ('x', index), |ui| {
         common_rows(ui, state, &vertex.vertex);
         for (name, p, help) in [("p_light", vertex.p_light, Text::HelpPLight), ("p_eye", vertex.p_eye, Text::HelpPEye)] {
-            if let Some(p) = p {
-                row(ui, name, &density(p, &vertex.vertex), state.say(help));
-            }
+            let value = p.map_or("–".to_owned(), |p| density(p, &vertex.vertex));
+            row(ui, name, &value, state.say(help));
         }
     });
 }
@@ -151,5 +157,5 @@ fn row(ui: &mut Ui, name: &str, value: &str, help: &str) {
 }
 
 fn density(value: f32, vertex: &VertexRecord) -> String {
-    format!("{} {}", sci(f64::from(value)), unit(vertex.measure)).trim_end().to_owned()
+    format!("{} {}", number(f64::from(value)), unit(vertex.measure)).trim_end().to_owned()
 }

@@ -19,6 +19,7 @@ pub fn show(ui: &mut Ui, state: &mut State, record: &PathRecord) {
         return;
     }
     ui.label(RichText::new(state.say(Text::SplitsIntro)).small().weak());
+    ui.label(RichText::new(state.say(Text::SplitsScale)).small().weak());
     let logs = splits.iter().filter_map(|split| split.p);
     let (low, high) = (logs.clone().fold(f64::INFINITY, f64::min), logs.fold(f64::NEG_INFINITY, f64::max));
     ui.spacing_mut().item_spacing.y = 2.0;

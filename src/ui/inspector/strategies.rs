@@ -1,12 +1,12 @@
 //! The strategies table: a row per (s,t) with its weight and contribution, or with why it has none.
 
-use crate::bdpt::Strategy;
 use crate::bdpt::record::{PathRecord, StrategyRecord};
+use crate::bdpt::{Reason, Strategy};
 use crate::ui::state::{Sort, State};
 use crate::ui::text::{Text, fill, reason_short, reason_text};
 use crate::ui::widgets::{bar, cell_text, full_name, pair, role_help, role_name, swatch};
 use crate::ui::{format, pictures, theme};
-use eframe::egui::{self, CornerRadius, FontId, Rect, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use eframe::egui::{self, Color32, CornerRadius, FontId, Painter, Rect, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 const ROW: f32 = 24.0;
 
@@ -72,6 +72,8 @@ fn heads(ui: &mut Ui, state: &State) {
     for (column, text) in heads {
         cell_text(ui.painter(), column, state.say(text), FontId::proportional(12.0), ui.visuals().weak_text_color());
     }
+    let id = ui.scope_id().with("head of contributions");
+    ui.interact(columns.contribution, id, Sense::hover()).on_hover_text(state.say(Text::HelpHeadContribution));
 }
 
 fn row(ui: &mut Ui, state: &mut State, record: &StrategyRecord) {
@@ -99,6 +101,11 @@ fn row(ui: &mut Ui, state: &mut State, record: &StrategyRecord) {
     });
 }
 
+/// Left out of the sum (one that does not run is not).
+fn is_hidden(state: &State, record: &StrategyRecord) -> bool {
+    state.hidden.contains(record.strategy()) && state.settings.strategies.contains(record.strategy())
+}
+
 /// What a screen reader says for a row.
 fn spoken(state: &State, record: &StrategyRecord) -> String {
     let name = full_name(record.strategy(), state.prefs.lang);
@@ -106,7 +113,8 @@ fn spoken(state: &State, record: &StrategyRecord) -> String {
         Some(reason) => reason_short(reason, state.prefs.lang).to_owned(),
         None => fill(state.say(Text::SpokenWeight), &[&format::weight(f64::from(record.mis_weight))]),
     };
-    format!("{name}: {rest}")
+    let hidden = if is_hidden(state, record) { state.say(Text::SpokenHidden) } else { "" };
+    format!("{name}: {rest}{hidden}")
 }
 
 fn paint(ui: &Ui, state: &State, record: &StrategyRecord, rect: Rect, response: &Response) {
@@ -120,9 +128,15 @@ fn paint(ui: &Ui, state: &State, record: &StrategyRecord, rect: Rect, response: 
         painter.rect_filled(Rect::from_min_size(rect.min, vec2(3.0, rect.height())), CornerRadius::same(1), theme::SELECTED);
     }
     let columns = Columns::of(rect);
-    let (text, weak) = (visuals.text_color(), visuals.weak_text_color());
-    let colour = if record.feasible { text } else { weak };
-    name_column(ui, state, record.strategy(), columns.role, colour);
+    let weak = visuals.weak_text_color();
+    let hidden = is_hidden(state, record);
+    let mut painter = painter.clone();
+    if hidden || record.reason == Some(Reason::Removed) {
+        painter.multiply_opacity(0.6);
+    }
+    let painter = &painter;
+    let text = if record.feasible && !hidden { visuals.text_color() } else { weak };
+    name_column(painter, state, record.strategy(), columns.role, (text, weak), hidden);
     let small = FontId::monospace(12.0);
     if let Some(reason) = record.reason.filter(|_| !record.feasible) {
         let wide = Rect::from_min_max(columns.weight.min, columns.raster.max);
@@ -137,21 +151,21 @@ fn paint(ui: &Ui, state: &State, record: &StrategyRecord, rect: Rect, response: 
     cell_text(painter, columns.weight.with_min_x(gauge.right() + 6.0), &format::weight(weight), small.clone(), text);
     let square = Rect::from_center_size(pos2(columns.contribution.left() + 7.0, middle), vec2(13.0, 13.0));
     swatch(painter, visuals, square, pictures::hue(record.contribution));
-    let luminance = format!("{:.2e}", format::luminance(record.contribution));
+    let luminance = format::short(f64::from(format::luminance(record.contribution)));
     cell_text(painter, columns.contribution.with_min_x(square.right() + 6.0), &luminance, small.clone(), text);
     if let Some([x, y]) = record.raster.filter(|_| !record.strategy().stays_in_pixel()) {
         cell_text(painter, columns.raster, &format!("{},{}", x.floor(), y.floor()), small, weak);
     }
 }
 
-fn name_column(ui: &Ui, state: &State, strategy: Strategy, column: Rect, colour: egui::Color32) {
-    let painter = ui.painter();
-    let name = role_name(strategy, state.prefs.lang);
-    let galley = painter.layout_no_wrap(name, FontId::proportional(13.5), colour);
-    let width = galley.size().x;
-    painter.with_clip_rect(column).galley(pos2(column.left(), column.center().y - galley.size().y / 2.0), galley, colour);
-    let rest = column.with_min_x((column.left() + width + 6.0).min(column.right()));
-    cell_text(painter, rest, &pair(strategy), FontId::proportional(12.5), ui.visuals().weak_text_color());
+fn name_column(painter: &Painter, state: &State, strategy: Strategy, column: Rect, (text, weak): (Color32, Color32), hidden: bool) {
+    let taken = cell_text(painter, column, &role_name(strategy, state.prefs.lang), FontId::proportional(13.5), text);
+    let rest = column.with_min_x(column.left() + taken + 6.0);
+    let taken = cell_text(painter, rest, &pair(strategy), FontId::proportional(12.5), weak);
+    if hidden {
+        let rest = rest.with_min_x(rest.left() + taken + 6.0);
+        cell_text(painter, rest, state.say(Text::CellHidden), FontId::proportional(11.0), weak);
+    }
 }
 
 fn numbers(ui: &mut Ui, state: &State, record: &StrategyRecord) {
@@ -161,7 +175,7 @@ fn numbers(ui: &mut Ui, state: &State, record: &StrategyRecord) {
             ui.label(RichText::new(value).monospace());
             ui.end_row();
         };
-        line(Text::NumberWeight, format::sci(f64::from(record.mis_weight)));
+        line(Text::NumberWeight, format::number(f64::from(record.mis_weight)));
         line(Text::NumberContribution, format::rgb(record.contribution));
         line(Text::NumberUnweighted, format::rgb(record.contribution_unweighted));
         line(Text::NumberConnection, format::rgb(record.connection_term));
