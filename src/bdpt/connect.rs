@@ -67,12 +67,8 @@ impl Reason {
             Self::BackOfTheLight => "the light does not shine to this side",
             Self::BehindTheCamera => "the light vertex lies behind the camera",
             Self::OutsideTheFilm => "the light vertex lies outside the picture",
-            Self::LightVertexScattersNothing => {
-                "the last light vertex scatters nothing along the edge: it leaves on the other side of the surface"
-            }
-            Self::EyeVertexScattersNothing => {
-                "the last eye vertex scatters nothing along the edge: it arrives on the other side of the surface"
-            }
+            Self::LightVertexScattersNothing => "the edge leaves the last light vertex behind its surface, where nothing is scattered",
+            Self::EyeVertexScattersNothing => "the edge reaches the last eye vertex from behind its surface, where nothing is scattered",
             Self::DegenerateEdge => "the ends of the edge coincide, or the edge lies in a surface's plane",
             Self::Blocked => "something stands between the ends of the edge",
             Self::NoLight => "the scene has no light",
