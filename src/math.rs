@@ -113,7 +113,7 @@ pub fn refract(w: Vec3, n: Vec3, eta: f32) -> Option<Vec3> {
 pub fn direction_between(a: Vec3, b: Vec3) -> (Vec3, f32) {
     let offset = b - a;
     let distance_squared = offset.length_squared();
-    (offset / distance_squared.sqrt(), distance_squared)
+    (offset * (1.0 / distance_squared.sqrt()), distance_squared)
 }
 
 /// The geometry term without visibility, m⁻²; `w` is the unit direction between the points.

@@ -112,7 +112,7 @@ impl Bvh {
     /// Does anything lie strictly between the ends?
     #[inline]
     pub fn any_hit(&self, triangles: &[Triangle], segment: &Segment) -> bool {
-        self.traverse(triangles, &PreparedRay::new(segment.from, segment.to - segment.from), 1.0, |_| true)
+        self.traverse::<true>(triangles, &PreparedRay::new(segment.from, segment.to - segment.from), 1.0, |_| true)
     }
 
     /// The hit nearest to the segment's start, `distance` as a fraction of the segment.
@@ -123,25 +123,26 @@ impl Bvh {
     #[inline]
     fn nearest(&self, triangles: &[Triangle], ray: &PreparedRay, t_max: f32) -> Option<Hit> {
         let mut best = None;
-        self.traverse(triangles, ray, t_max, |hit| {
+        self.traverse::<false>(triangles, ray, t_max, |hit| {
             best = Some(hit);
             false
         });
         best
     }
 
-    /// Visits hits nearer and nearer, from `t_max` down, until `stop` says so (then true) or there is none left.
+    /// Visits hits nearer and nearer, from `t_max` down, until `stop` says so (then true) or there is none left. With `ANY`
+    /// the order does not matter, so none is kept.
     #[inline(always)]
-    fn traverse(&self, triangles: &[Triangle], ray: &PreparedRay, t_max: f32, stop: impl FnMut(Hit) -> bool) -> bool {
+    fn traverse<const ANY: bool>(&self, triangles: &[Triangle], ray: &PreparedRay, t_max: f32, stop: impl FnMut(Hit) -> bool) -> bool {
         // A small scene's stack is so small that clearing it costs nothing.
         match self.depth {
-            0..=16 => self.traverse_with::<16>(triangles, ray, t_max, stop),
-            _ => self.traverse_with::<STACK_SIZE>(triangles, ray, t_max, stop),
+            0..=16 => self.traverse_with::<16, ANY>(triangles, ray, t_max, stop),
+            _ => self.traverse_with::<STACK_SIZE, ANY>(triangles, ray, t_max, stop),
         }
     }
 
     #[inline(always)]
-    fn traverse_with<const N: usize>(
+    fn traverse_with<const N: usize, const ANY: bool>(
         &self,
         triangles: &[Triangle],
         ray: &PreparedRay,
@@ -167,7 +168,7 @@ impl Bvh {
                 let ((a_near, a_far), (b_near, b_far)) = (ray.span(a, t_max), ray.span(b, t_max));
                 let (hits_a, hits_b) = (a_near <= a_far, b_near <= b_far);
                 if hits_a && hits_b {
-                    let (near, far) = if a_near <= b_near { (a, (node.first + 1, b_near)) } else { (b, (node.first, a_near)) };
+                    let (near, far) = if ANY || a_near <= b_near { (a, (node.first + 1, b_near)) } else { (b, (node.first, a_near)) };
                     stack[top] = far;
                     top += 1;
                     node = near;
@@ -184,7 +185,7 @@ impl Bvh {
                 }
                 top -= 1;
                 let (index, entry) = stack[top];
-                if entry <= t_max {
+                if ANY || entry <= t_max {
                     node = &self.nodes[index as usize];
                     break;
                 }
