@@ -201,7 +201,7 @@ impl Rendering {
         if self.session.pass_fraction() > 0.0 {
             let done = 100.0 * self.session.pass_fraction();
             eprintln!(
-                "note: the last pass is partial: the top {done:.0} % of the rows have {} samples per pixel, the others {passes}",
+                "note: the last pass is partial: {done:.0} % of the rows (taken in turn, not from the top) have {} samples per pixel, the others {passes}",
                 passes + 1
             );
         }
