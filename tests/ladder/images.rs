@@ -119,6 +119,9 @@ fn integrators_roulette_and_heuristics_keep_the_mean() {
                 reference.mean()
             );
             assert!(z.abs() < limit, "{}, {name}: {} against {}, z = {z}", scene.name, other.mean(), reference.mean());
+            // Negative control: each comparison would see an error of 3 %.
+            let shifted = (reference.mean() * 1.03 - other.mean()) / (reference.error2() + other.error2()).sqrt();
+            assert!(shifted > limit, "{}, {name}: an error of 3 % would pass, z = {shifted}", scene.name);
         }
     }
 }
