@@ -121,11 +121,11 @@ impl Context<'_> {
         let first_block = if mode == TransportMode::Importance { BLOCK_LIGHT_VERTEX } else { BLOCK_EYE_VERTEX };
         while vertices.len() < max_vertices {
             let last = vertices.len() - 1;
-            let from = vertices[last];
+            let from = &vertices[last];
             *rays += 1;
             let origin = offset_ray_origin(from.position, from.error, from.n_g, step.direction);
             let Some(point) = self.scene.intersect(&Ray { origin, direction: step.direction }) else { return End::Escaped };
-            let Some(mut vertex) = arrive(&from, &point, &step) else { return End::Absorbed };
+            let Some(mut vertex) = arrive(from, &point, &step) else { return End::Absorbed };
             vertex.survival = self.survival(vertex.material);
 
             if vertices.len() + 1 == max_vertices {

@@ -154,8 +154,9 @@ impl Bvh {
         let mut top = 0;
         loop {
             if node.count > 0 {
-                for index in node.first..node.first + node.count {
-                    if let Some(hit) = ray.hit(&triangles[index as usize], index, t_max) {
+                let first = node.first as usize;
+                for (triangle, index) in triangles[first..first + node.count as usize].iter().zip(node.first..) {
+                    if let Some(hit) = ray.hit(triangle, index, t_max) {
                         if stop(hit) {
                             return true;
                         }
@@ -164,7 +165,8 @@ impl Bvh {
                 }
             } else {
                 // Nearer child first, the other waits on the stack with its entry distance.
-                let (a, b) = (&self.nodes[node.first as usize], &self.nodes[node.first as usize + 1]);
+                let children = &self.nodes[node.first as usize..node.first as usize + 2];
+                let (a, b) = (&children[0], &children[1]);
                 let ((a_near, a_far), (b_near, b_far)) = (ray.span(a, t_max), ray.span(b, t_max));
                 let (hits_a, hits_b) = (a_near <= a_far, b_near <= b_far);
                 if hits_a && hits_b {
