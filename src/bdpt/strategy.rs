@@ -106,10 +106,9 @@ impl StrategySet {
         set
     }
 
-    /// Path tracing: {s ≤ 1}. The direct connection of light and lens, (1,1), belongs to the light tracer, except that a
-    /// path of one edge has no other t.
+    /// Path tracing: {s ≤ 1}. The direct connection of light and lens, (1,1), is in both families.
     pub fn path_tracer() -> Self {
-        Self::where_(|x| x.s <= 1 && x.t >= 2)
+        Self::where_(|x| x.s <= 1)
     }
 
     /// Light tracing: {t ≤ 1}.
