@@ -1,7 +1,7 @@
 //! Rung 3: strategies against each other, path by path length, with the bounded comparison.
 //!
 //! For strategies i and j, ∫ f h dμ is estimated from either's samples as the mean of (f/p_i) h and (f/p_j) h with
-//! h = p_i p_j/(p_i + p_j)²: h/p_i = p_j/(p_i + p_j)² ≤ 1/(4 p_i …) stays bounded where either density explodes, and h vanishes
+//! h = p_i p_j/(p_i + p_j)²: h/p_i = p_j/(p_i + p_j)² ≤ 1/max(p_i, p_j) stays bounded where either density vanishes, and h is 0
 //! where either cannot sample. Both means come from the same pairs of subpaths, so their difference is tested as a pair.
 
 use crate::scenes;

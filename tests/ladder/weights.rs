@@ -47,19 +47,18 @@ fn differences(heuristic: &Heuristic, spread: f32, paths: u32) -> (f64, f64) {
 
 #[test]
 fn the_fast_form_is_the_definition() {
-    for kind in KINDS {
+    for kind in [HeuristicKind::Power, HeuristicKind::Balance, HeuristicKind::Uniform] {
         for beta in [1.0, 2.0, 3.7] {
             for spread in [1.0, 6.0, 30.0] {
                 let heuristic = Heuristic { kind, beta, cutoff: 0.1 };
                 let (forms, sums) = differences(&heuristic, spread, 100_000);
-                // A threshold decides all or nothing; a rounding on it is not an error of the form, but must stay rare.
-                let bound = if matches!(kind, HeuristicKind::Max | HeuristicKind::Cutoff) { 1.0 } else { 1e-5 };
-                assert!(forms < bound && sums < bound, "{kind:?} β {beta} spread {spread}: forms {forms:e}, sums {sums:e}");
+                assert!(forms < 1e-5 && sums < 1e-5, "{kind:?} β {beta} spread {spread}: forms {forms:e}, sums {sums:e}");
             }
         }
     }
 }
 
+/// Max and cutoff decide all or nothing: a rounding on the threshold is no error of the form, but must be as rare as roundings.
 #[test]
 fn thresholds_flip_on_roundings_only() {
     for kind in [HeuristicKind::Max, HeuristicKind::Cutoff] {
