@@ -2,7 +2,7 @@
 //! window without ever blocking it.
 
 use crate::bdpt::record::record as record_sample;
-use crate::bdpt::render::{Counts, Plan, image_mean, render_rows};
+use crate::bdpt::render::{Counts, Plan, image_mean, render_rows, splat_quantum};
 use crate::bdpt::walk::Context;
 use crate::bdpt::{PathRecord, Strategy, StrategySet};
 use crate::film::Film;
@@ -91,9 +91,9 @@ impl Session {
     pub fn new(job: Job) -> Result<Self, JobError> {
         job.check()?;
         let plan = job.plan();
-        let brightest = job.scene.lights.list.iter().map(|light| light.radiance.max_element()).fold(0.0, f32::max);
-        let film = Film::new(job.size, plan.layers, brightest);
         let (view, height) = (job.view(), job.size[1]);
+        let quantum = splat_quantum(&Context { scene: &job.scene, view: &view, settings: &job.settings });
+        let film = Film::new(job.size, plan.layers, quantum);
         Ok(Self {
             job,
             view,

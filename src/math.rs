@@ -79,6 +79,61 @@ pub fn sample_cosine_hemisphere(u: Vec2) -> Vec3 {
     Vec3::new(d.x, d.y, (1.0 - d.length_squared()).max(0.0).sqrt())
 }
 
+/// A direction uniform on the sphere; density 1/(4π) per solid angle.
+#[inline]
+pub fn sample_sphere(u: Vec2) -> Vec3 {
+    direction_at(u.y, 2.0 * u.x)
+}
+
+/// The direction `turn` around +z whose cosine with +z is 1 − `versine`, `versine` ∈ [0, 2]: near the axis 1 − cosθ keeps
+/// the digits that cosθ has lost.
+#[inline]
+pub fn direction_at(turn: f32, versine: f32) -> Vec3 {
+    let (sin, cos) = sin_cos_turn(turn);
+    let r = (versine * (2.0 - versine)).max(0.0).sqrt();
+    Vec3::new(cos * r, sin * r, 1.0 - versine)
+}
+
+/// 1 − cosθ of the angle between two unit vectors.
+#[inline]
+pub fn versine(a: Vec3, b: Vec3) -> f32 {
+    0.5 * (a - b).length_squared()
+}
+
+/// The angle of the point (x, y) as a part of a full turn, in [0, 1); |error| < 10⁻⁷ turns. 0 at the origin.
+#[inline]
+pub fn turn_of(y: f32, x: f32) -> f32 {
+    let (ax, ay) = (x.abs(), y.abs());
+    let (small, large) = if ax < ay { (ax, ay) } else { (ay, ax) };
+    if large == 0.0 {
+        return 0.0;
+    }
+    // atan on [0, tan π/8], the rest by atan a = π/4 + atan((a − 1)/(a + 1)).
+    const TAN_EIGHTH: f32 = 0.414_213_57;
+    let shifted = small > TAN_EIGHTH * large;
+    let a = if shifted { (small - large) / (small + large) } else { small / large };
+    let a2 = a * a;
+    let poly = a + a * a2 * (-3.333_295e-1 + a2 * (1.997_771_1e-1 + a2 * (-1.387_768_6e-1 + a2 * 8.053_744_5e-2)));
+    let octant = poly * (0.5 * INV_PI) + if shifted { 0.125 } else { 0.0 };
+    let quarter = if ax < ay { 0.25 - octant } else { octant };
+    let half = if x < 0.0 { 0.5 - quarter } else { quarter };
+    let turn = if y < 0.0 { 1.0 - half } else { half };
+    if turn >= 1.0 { 0.0 } else { turn }
+}
+
+/// ∛x for x ∈ [0, 1], relative error < 10⁻⁶: a first guess from the exponent, then Newton's steps.
+#[inline]
+pub fn cube_root(x: f32) -> f32 {
+    if x <= f32::MIN_POSITIVE {
+        return 0.0;
+    }
+    let mut y = f32::from_bits(x.to_bits() / 3 + 0x2a51_37a0);
+    for _ in 0..3 {
+        y -= (y - x / (y * y)) * (1.0 / 3.0);
+    }
+    y
+}
+
 /// Barycentric coordinates `(b1, b2)` of a point uniform on a triangle (Turk 1990 square-root warp).
 #[inline]
 pub fn sample_triangle(u: Vec2) -> Vec2 {
@@ -148,6 +203,30 @@ mod tests {
             assert!((f64::from(s) - exact.sin()).abs() < 4e-7, "sin at {turn}");
             assert!((f64::from(c) - exact.cos()).abs() < 4e-7, "cos at {turn}");
         }
+    }
+
+    #[test]
+    fn turn_of_is_accurate_all_round() {
+        for i in 0..100_000 {
+            let angle = (f64::from(i) + 0.5) / 100_000.0 * std::f64::consts::TAU;
+            for r in [1e-6, 1.0, 1e6] {
+                let (x, y) = ((r * angle.cos()) as f32, (r * angle.sin()) as f32);
+                let exact = f64::from(y).atan2(f64::from(x)).rem_euclid(std::f64::consts::TAU) / std::f64::consts::TAU;
+                assert!((f64::from(turn_of(y, x)) - exact).abs() < 1e-7, "{x} {y}: {} {exact}", turn_of(y, x));
+            }
+        }
+        assert_eq!([(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0), (0.0, 0.0)].map(|(y, x)| turn_of(y, x)), [0.0, 0.25, 0.5, 0.75, 0.0]);
+    }
+
+    #[test]
+    fn cube_roots_are_cube_roots() {
+        for i in 0..100_000 {
+            let x = (i as f32 + 1.0) / 100_000.0;
+            for x in [x, x * 1e-10] {
+                assert!((cube_root(x).powi(3) / x - 1.0).abs() < 3e-6, "{x}: {}", cube_root(x));
+            }
+        }
+        assert_eq!((cube_root(0.0), cube_root(1.0)), (0.0, 1.0));
     }
 
     #[test]

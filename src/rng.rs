@@ -6,13 +6,15 @@
 //! | block | purpose | the four numbers |
 //! |---|---|---|
 //! | 0 | eye subpath, start | raster x, raster y in the pixel; lens x, y |
-//! | 1 | light subpath, start | choice of the light; point on it (2) |
-//! | 2 | light subpath, first direction | direction (2), side of a two-sided emitter |
+//! | 1 | light subpath, start | choice of the light (2); point on it, or cell of the environment (2) |
+//! | 2 | light subpath, first direction | direction, or place on the disk (2); side of a two-sided emitter |
+//! | 3 | light subpath, start | place in the environment's cell (2) |
 //! | 16 + i | light subpath, at y_i | component, direction (2), roulette |
 //! | 96 + i | eye subpath, at z_i | component, direction (2), roulette |
-//! | 176 + t | fresh light end of (1, t) | choice of the light; point on it (2) |
+//! | 176 + t | fresh light end of (1, t) | choice of the light (2); point on it, or cell of the environment (2) |
 //! | 256 + s | fresh lens end of (s, 1) | lens x, y |
 //! | 336 + s | rounding of the splat of (s, 1) and (s, 0) | one per colour channel |
+//! | 416 + t | fresh light end of (1, t) | place in the environment's cell (2) |
 
 use glam::Vec2;
 
@@ -22,6 +24,8 @@ pub const BLOCK_EYE_START: u32 = 0;
 pub const BLOCK_LIGHT_START: u32 = 1;
 /// Block of the light subpath's first direction.
 pub const BLOCK_LIGHT_DIRECTION: u32 = 2;
+/// Block of the light subpath's place in the cell of an environment.
+pub const BLOCK_LIGHT_PLACE: u32 = 3;
 /// First block of the light subpath's vertices.
 pub const BLOCK_LIGHT_VERTEX: u32 = 16;
 /// First block of the eye subpath's vertices.
@@ -32,6 +36,8 @@ pub const BLOCK_FRESH_LIGHT: u32 = 176;
 pub const BLOCK_FRESH_LENS: u32 = 256;
 /// First block of the splat roundings.
 pub const BLOCK_SPLAT: u32 = 336;
+/// First block of the fresh light ends' places in the cell of an environment.
+pub const BLOCK_FRESH_PLACE: u32 = 416;
 
 /// The counter's fixed part: which sample of which pixel, under which seed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -92,9 +98,9 @@ mod tests {
 
     #[test]
     fn blocks_do_not_overlap_up_to_64_edges() {
-        let starts = [BLOCK_LIGHT_VERTEX, BLOCK_EYE_VERTEX, BLOCK_FRESH_LIGHT, BLOCK_FRESH_LENS, BLOCK_SPLAT];
+        let starts = [BLOCK_LIGHT_VERTEX, BLOCK_EYE_VERTEX, BLOCK_FRESH_LIGHT, BLOCK_FRESH_LENS, BLOCK_SPLAT, BLOCK_FRESH_PLACE];
         assert!(starts.windows(2).all(|w| w[1] - w[0] >= 66));
-        const { assert!(BLOCK_LIGHT_DIRECTION < BLOCK_LIGHT_VERTEX) };
+        const { assert!(BLOCK_LIGHT_PLACE < BLOCK_LIGHT_VERTEX) };
     }
 
     #[test]

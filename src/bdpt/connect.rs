@@ -4,78 +4,20 @@
 //! c_{0,t} = L_e(z_{t−1}→z_{t−2})
 //! c_{s,t} = f̄(y_{s−2}→y_{s−1}→z_{t−1}) G(y_{s−1}↔z_{t−1}) V f̄(y_{s−1}→z_{t−1}→z_{t−2})
 //!           with f̄ ≡ L_e⁽¹⁾ at y₀ and f̄ ≡ W_e⁽¹⁾ at z₀
+//! c_{s,0} = W_e⁽⁰⁾ W_e⁽¹⁾(y_{s−2}→y_{s−1})
 //! C*_{s,t} = α^L_s c_{s,t} α^E_t / n          n = evaluations of the technique per pass = number of pixels
 //! ```
 
+use super::crossing::{self, Crossing};
 use super::mis::mis_weight;
 use super::path::{Edge, FullPath};
+use super::reason::Reason;
 use super::strategy::Strategy;
-use super::vertex::{Subpath, Vertex};
+use super::vertex::{AT_INFINITY, DISCRETE, Subpath, Vertex};
 use super::walk::Context;
-use crate::math::{Vec2, Vec3, direction_between, geometry_term, offset_ray_origin};
-use crate::rng::{BLOCK_FRESH_LIGHT, SampleId};
+use crate::math::{Vec2, Vec3, offset_ray_origin};
+use crate::rng::{BLOCK_EYE_START, BLOCK_FRESH_LENS, BLOCK_FRESH_LIGHT, BLOCK_FRESH_PLACE, SampleId, pair};
 use crate::scene::{NONE, Segment};
-use serde::Serialize;
-
-/// Why a strategy of a sample contributes nothing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Reason {
-    /// The light subpath has fewer than s vertices.
-    LightSubpathTooShort,
-    /// The eye subpath has fewer than t vertices.
-    EyeSubpathTooShort,
-    /// y_{s−1} scatters into single directions only.
-    LightVertexIsDirac,
-    /// z_{t−1} scatters into single directions only.
-    EyeVertexIsDirac,
-    /// s = 0: z_{t−1} does not lie on a light.
-    NotOnALight,
-    /// s = 0 or 1: the light does not shine to this side.
-    BackOfTheLight,
-    /// t = 1: the point lies behind the camera.
-    BehindTheCamera,
-    /// t = 1: the point lies outside the picture.
-    OutsideTheFilm,
-    /// y_{s−1} scatters nothing along the connection edge (it leaves on the other side, or the surface is black).
-    LightVertexScattersNothing,
-    /// z_{t−1} scatters nothing along the connection edge.
-    EyeVertexScattersNothing,
-    /// The ends coincide, or the edge lies in a surface's plane: no geometry term.
-    DegenerateEdge,
-    /// Something stands between y_{s−1} and z_{t−1}.
-    Blocked,
-    /// The scene has no light.
-    NoLight,
-    /// The strategy was removed: it is not evaluated.
-    Removed,
-}
-
-impl Reason {
-    /// One plain sentence.
-    pub fn text(self) -> &'static str {
-        match self {
-            Self::LightSubpathTooShort => "the light subpath ended before it had s vertices",
-            Self::EyeSubpathTooShort => "the eye subpath ended before it had t vertices",
-            Self::LightVertexIsDirac => {
-                "the last light vertex is a mirror or glass: it scatters into single directions, none of them along the edge"
-            }
-            Self::EyeVertexIsDirac => {
-                "the last eye vertex is a mirror or glass: it scatters into single directions, none of them along the edge"
-            }
-            Self::NotOnALight => "the eye subpath's last vertex does not lie on a light",
-            Self::BackOfTheLight => "the light does not shine to this side",
-            Self::BehindTheCamera => "the light vertex lies behind the camera",
-            Self::OutsideTheFilm => "the light vertex lies outside the picture",
-            Self::LightVertexScattersNothing => "the edge leaves the last light vertex behind its surface, where nothing is scattered",
-            Self::EyeVertexScattersNothing => "the edge reaches the last eye vertex from behind its surface, where nothing is scattered",
-            Self::DegenerateEdge => "the ends of the edge coincide, or the edge lies in a surface's plane",
-            Self::Blocked => "something stands between the ends of the edge",
-            Self::NoLight => "the scene has no light",
-            Self::Removed => "the strategy was removed, so it is not evaluated",
-        }
-    }
-}
 
 /// What a strategy of a sample adds, and where.
 #[derive(Clone, Copy, Debug)]
@@ -101,10 +43,14 @@ pub struct Sample {
     pub light: Subpath,
     /// z₀, z₁, …
     pub eye: Subpath,
+    /// Where the light subpath crosses the lens; in the order of s.
+    pub crossings: Vec<Crossing>,
     /// Where in its pixel the eye subpath started.
     pub raster: Vec2,
     /// The fresh light end of the last (1, t), if there was one.
-    pub fresh: Option<Vertex>,
+    pub fresh_light: Option<Vertex>,
+    /// The fresh lens end of the last (s, 1), if there was one.
+    pub fresh_lens: Option<Vertex>,
     /// The path joined last.
     pub path: FullPath,
     /// The connection edge looked at last.
@@ -119,67 +65,108 @@ impl Sample {
     /// Walks both subpaths of a sample, each up to the given number of vertices.
     pub fn trace(&mut self, context: &Context, id: SampleId, light_vertices: usize, eye_vertices: usize) {
         self.id = id;
-        context.light_subpath(id, light_vertices, &mut self.light, &mut self.rays_closest);
+        let last = context.light_subpath(id, light_vertices, &mut self.light, &mut self.rays_closest);
+        crossing::find(context, &self.light, last, &mut self.crossings, &mut self.rays_shadow);
         if eye_vertices > 0 {
             self.raster = context.eye_subpath(id, eye_vertices, &mut self.eye, &mut self.rays_closest);
         } else {
             // Only splats are wanted of this sample: the lens is all they need.
             self.eye.vertices.clear();
-            self.eye.vertices.push(context.lens_vertex());
+            let u = id.numbers(BLOCK_EYE_START);
+            self.eye.vertices.push(context.lens_vertex(context.view.sample_lens(pair(u, 2))));
         }
     }
 
     /// A sample of two given subpaths.
-    pub fn of(id: SampleId, raster: Vec2, light: Subpath, eye: Subpath) -> Self {
-        Self { id, raster, light, eye, ..Self::default() }
+    pub fn of(id: SampleId, raster: Vec2, light: Subpath, eye: Subpath, crossings: Vec<Crossing>) -> Self {
+        Self { id, raster, light, eye, crossings, ..Self::default() }
     }
 
     /// After [`Reason::Blocked`]: joins the path all the same, as if the edge were free.
     pub fn join_blocked(&mut self, context: &Context, strategy: Strategy) {
-        let (s, t) = (strategy.s as usize, strategy.t as usize);
-        let y = match &self.fresh {
-            Some(fresh) => std::slice::from_ref(fresh),
-            None => &self.light.vertices[..s],
-        };
-        self.path.join(context, y, &self.eye.vertices[..t], &self.edge);
+        let y = light_end(&self.fresh_light, &self.light, strategy.s as usize);
+        let z = eye_end(&self.fresh_lens, &self.eye, strategy.t as usize);
+        self.path.join(context, y, z, &self.edge);
     }
 
     /// Evaluates strategy (s,t) of the sample; after `Ok`, [`Sample::path`] is its path.
     #[inline]
     pub fn evaluate(&mut self, context: &Context, strategy: Strategy) -> Result<Contribution, Reason> {
         let (s, t) = (strategy.s as usize, strategy.t as usize);
+        (self.fresh_light, self.fresh_lens) = (None, None);
+        if t == 0 {
+            return self.light_hits_lens(context, s);
+        }
         if self.eye.vertices.len() < t {
             return Err(Reason::EyeSubpathTooShort);
         }
         if s == 0 {
             return self.eye_hits_light(context, t);
         }
-        self.fresh = None;
-        if s == 1 && t >= 2 && context.settings.fresh_ends {
-            let u = self.id.numbers(BLOCK_FRESH_LIGHT + t as u32);
-            self.fresh = Some(context.sample_light_vertex([u[0], u[1], u[2]]).ok_or(Reason::NoLight)?);
+        if self.eye.vertices[t - 1].has(AT_INFINITY) {
+            return Err(Reason::EyeVertexAtInfinity);
+        }
+        let fresh = context.settings.fresh_ends;
+        if s == 1 && t >= 2 && fresh {
+            let y0 = context.sample_light_vertex(self.id, BLOCK_FRESH_LIGHT + strategy.t, BLOCK_FRESH_PLACE + strategy.t);
+            self.fresh_light = Some(y0.ok_or(Reason::NoLight)?);
         } else if self.light.vertices.len() < s {
             return Err(Reason::LightSubpathTooShort);
+        }
+        if t == 1 && fresh && context.view.has_lens() {
+            let u = self.id.numbers(BLOCK_FRESH_LENS + strategy.s);
+            self.fresh_lens = Some(context.lens_vertex(context.view.sample_lens(pair(u, 0))));
         }
         self.connect(context, s, t)
     }
 
-    /// The light side's first s vertices under the strategy evaluated last, its fresh end included.
-    pub fn light_vertices(&self, s: usize) -> &[Vertex] {
-        match &self.fresh {
-            Some(fresh) if s == 1 => std::slice::from_ref(fresh),
-            _ => &self.light.vertices[..s],
+    /// The light side's vertices under the strategy evaluated last: y₀…y_{s−1} with its fresh end; t = 0: without the lens.
+    pub fn light_vertices(&self, strategy: Strategy) -> &[Vertex] {
+        let s = strategy.s as usize;
+        light_end(&self.fresh_light, &self.light, if strategy.t == 0 { s - 1 } else { s })
+    }
+
+    /// The eye side's vertices under the strategy evaluated last, z₀ first, with its fresh end; t = 0: the crossing of the lens.
+    pub fn eye_vertices(&self, strategy: Strategy) -> &[Vertex] {
+        match strategy.t {
+            0 => self.crossing(strategy.s).map_or(&[], |crossing| std::slice::from_ref(&crossing.lens)),
+            t => eye_end(&self.fresh_lens, &self.eye, t as usize),
         }
+    }
+
+    fn crossing(&self, s: u32) -> Option<&Crossing> {
+        self.crossings.iter().find(|crossing| crossing.s == s)
+    }
+
+    fn light_hits_lens(&mut self, context: &Context, s: usize) -> Result<Contribution, Reason> {
+        if self.light.vertices.len() + 1 < s {
+            return Err(Reason::LightSubpathTooShort);
+        }
+        let lens = self.crossing(s as u32).ok_or(Reason::LightMissesTheLens)?.lens;
+        if s == 2 && self.light.vertices[0].has(DISCRETE) {
+            return Err(Reason::LightNotShown);
+        }
+        let raster = context.view.project(lens.w_prev, lens.position).ok_or(Reason::BehindTheCamera)?;
+        let pixel = context.view.pixel(raster).ok_or(Reason::OutsideTheFilm)?;
+        let w_e = context.view.w_e_1(lens.w_prev, lens.position) * context.view.pdf_lens();
+        self.path.join_at_lens(context, &self.light.vertices[..s - 1], &lens);
+        Ok(Contribution {
+            raster,
+            pixel,
+            connection_term: Vec3::splat(w_e),
+            contribution_unweighted: lens.alpha * (w_e * context.view.per_pass()),
+            mis_weight: mis_weight(&self.path, s, &context.settings.heuristic),
+        })
     }
 
     #[inline]
     fn eye_hits_light(&mut self, context: &Context, t: usize) -> Result<Contribution, Reason> {
-        let z = &self.eye.vertices[..t];
+        let (z, lights) = (&self.eye.vertices[..t], &context.scene.lights);
         let last = &z[t - 1];
         if last.light == NONE {
             return Err(Reason::NotOnALight);
         }
-        let l_e = context.scene.lights.list[last.light as usize].l_e(last.n_g, last.w_prev);
+        let l_e = lights.l_e(&lights.list[last.light as usize], last.n_g, last.w_prev);
         if l_e == Vec3::ZERO {
             return Err(Reason::BackOfTheLight);
         }
@@ -195,19 +182,16 @@ impl Sample {
 
     #[inline]
     fn connect(&mut self, context: &Context, s: usize, t: usize) -> Result<Contribution, Reason> {
-        let y = match &self.fresh {
-            Some(fresh) => std::slice::from_ref(fresh),
-            None => &self.light.vertices[..s],
-        };
-        let z = &self.eye.vertices[..t];
+        let y = light_end(&self.fresh_light, &self.light, s);
+        let z = eye_end(&self.fresh_lens, &self.eye, t);
         let (a, b) = (&y[s - 1], &z[t - 1]);
 
         // The edge and what scatters along it.
-        let (w, distance_squared) = direction_between(a.position, b.position);
-        let geometry = geometry_term(a.n_g, b.n_g, w, distance_squared);
+        let (w, geometry) = a.edge_to(b);
         let f_a = light_factor(context, a, s, w)?;
         let (f_b, raster) = match t {
-            1 => lens_factor(context, -w).map(|(w_e, raster)| (Vec3::splat(w_e), raster))?,
+            1 if s == 1 && a.has(DISCRETE) => return Err(Reason::LightNotShown),
+            1 => lens_factor(context, -w, b.position).map(|(w_e, raster)| (Vec3::splat(w_e), raster))?,
             _ => (
                 surface_factor(context, b, -w, b.w_prev)
                     .map_err(|dirac| if dirac { Reason::EyeVertexIsDirac } else { Reason::EyeVertexScattersNothing })?,
@@ -222,7 +206,7 @@ impl Sample {
         // Its visibility, and the path's weight.
         self.edge = Edge { w, geometry };
         self.rays_shadow += 1;
-        if !context.scene.visible(&segment(a, b, w)) {
+        if !crossing::visible(context, a, b) {
             return Err(Reason::Blocked);
         }
         self.path.join(context, y, z, &self.edge);
@@ -234,6 +218,24 @@ impl Sample {
             contribution_unweighted: a.alpha * connection_term * b.alpha * context.view.per_pass(),
             mis_weight: mis_weight(&self.path, s, &context.settings.heuristic),
         })
+    }
+}
+
+/// y₀…y_{s−1}, or the fresh end.
+#[inline]
+fn light_end<'a>(fresh: &'a Option<Vertex>, light: &'a Subpath, s: usize) -> &'a [Vertex] {
+    match fresh {
+        Some(fresh) => std::slice::from_ref(fresh),
+        None => &light.vertices[..s],
+    }
+}
+
+/// z₀…z_{t−1}, or the fresh end.
+#[inline]
+fn eye_end<'a>(fresh: &'a Option<Vertex>, eye: &'a Subpath, t: usize) -> &'a [Vertex] {
+    match fresh {
+        Some(fresh) => std::slice::from_ref(fresh),
+        None => &eye.vertices[..t],
     }
 }
 
@@ -264,10 +266,10 @@ fn surface_factor(context: &Context, v: &Vertex, w_l: Vec3, w_e: Vec3) -> Result
     if f.max_element() > 0.0 { Ok(f) } else { Err(false) }
 }
 
-/// W_e⁽¹⁾ of the pixel in which the direction `w` from the lens lies, and its raster position.
+/// W_e⁽¹⁾ of the pixel in which the direction `w` from a point of the lens lies, and its raster position.
 #[inline]
-fn lens_factor(context: &Context, w: Vec3) -> Result<(f32, Vec2), Reason> {
-    let raster = context.view.project(w).ok_or(Reason::BehindTheCamera)?;
+fn lens_factor(context: &Context, w: Vec3, lens_point: Vec3) -> Result<(f32, Vec2), Reason> {
+    let raster = context.view.project(w, lens_point).ok_or(Reason::BehindTheCamera)?;
     context.view.pixel(raster).ok_or(Reason::OutsideTheFilm)?;
-    Ok((context.view.w_e(w), raster))
+    Ok((context.view.w_e_1(w, lens_point), raster))
 }

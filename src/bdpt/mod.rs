@@ -12,8 +12,11 @@
 //! | C_{s,t} | `contribution` | w C* |
 
 pub mod connect;
+pub mod crossing;
+pub mod existence;
 pub mod mis;
 pub mod path;
+pub mod reason;
 pub mod record;
 pub mod render;
 pub mod replay;
@@ -22,7 +25,8 @@ pub mod strategy;
 pub mod vertex;
 pub mod walk;
 
-pub use connect::Reason;
+pub use existence::{Absence, Existence};
+pub use reason::Reason;
 pub use record::PathRecord;
 pub use settings::{Heuristic, HeuristicKind, Settings};
 pub use strategy::{MAX_EDGES, Role, Strategy, StrategySet};

@@ -9,7 +9,7 @@
 //! same ones.
 
 use super::strategy::{MAX_VERTICES, Strategy};
-use super::vertex::Vertex;
+use super::vertex::{DISCRETE, Vertex};
 use super::walk::Context;
 use crate::math::Vec3;
 use crate::scene::TransportMode;
@@ -28,11 +28,12 @@ pub struct Edge {
 pub struct FullPath {
     /// Number of edges.
     pub k: usize,
-    /// Density of x_i from the light's side, i = 0…k.
+    /// Density of x_i from the light's side, i = 0…k; each in its vertex's measure.
     pub p_light: [f32; MAX_VERTICES],
     /// Density of x_i from the eye's side, i = 0…k.
     pub p_eye: [f32; MAX_VERTICES],
-    /// Can strategy s sample this path at all (no Dirac at either end of its connection, and its end points can be hit)?
+    /// Can strategy s sample this path at all? Neither end of its connection may be a Dirac; s = 0 needs a light and s = k + 1
+    /// a lens that can be hit.
     pub samplable: [bool; MAX_VERTICES + 1],
     /// `samplable`, and the strategy takes part.
     pub active: [bool; MAX_VERTICES + 1],
@@ -50,32 +51,24 @@ impl FullPath {
         }
     }
 
-    /// Becomes the path y₀…y_{s−1} z_{t−1}…z₀ of two subpaths cut to s = `y.len()` and t = `z.len()` vertices. `edge` joins
-    /// their ends; it is unused if s = 0.
+    /// Becomes the path y₀…y_{s−1} z_{t−1}…z₀ of two subpaths cut to s = `y.len()` and t = `z.len()` vertices, t ≥ 1. `edge`
+    /// joins their ends; it is unused if s = 0.
     #[inline]
     pub fn join(&mut self, context: &Context, y: &[Vertex], z: &[Vertex], edge: &Edge) {
         let (s, t) = (y.len(), z.len());
-        self.k = s + t - 1;
-        let k = self.k;
-        // Away from the connection, both densities are what the walks recorded. A Dirac at x_i rules out the strategies that
-        // would connect there, i and i + 1; the ends of the connection are none here, whatever their walk sampled later.
-        self.samplable[..=k].fill(true);
-        self.samplable[k + 1] = false;
+        let k = s + t - 1;
+        self.begin(context, k);
+        // Away from the connection, both densities are what the walks recorded. The ends of the connection are no Diracs here,
+        // whatever their walk sampled later.
         for (i, v) in y.iter().enumerate() {
-            self.p_light[i] = v.pdf_fwd_area;
-            self.p_eye[i] = v.pdf_rev_area;
-            if v.is_delta() && i + 1 < s {
-                self.samplable[i] = false;
-                self.samplable[i + 1] = false;
-            }
+            self.take_light_vertex(i, v, i + 1 < s);
         }
         for (j, v) in z.iter().enumerate() {
             let i = k - j;
             self.p_eye[i] = v.pdf_fwd_area;
             self.p_light[i] = v.pdf_rev_area;
             if v.is_delta() && j + 1 < t {
-                self.samplable[i] = false;
-                self.samplable[i + 1] = false;
+                self.no_connection_at(i);
             }
         }
         // Around it, four densities depend on the connection.
@@ -92,20 +85,67 @@ impl FullPath {
                 self.p_eye[s - 2] = scatter_psa(context, a, edge.w, TransportMode::Radiance) * a.geometry_prev;
             }
         }
-        // A pinhole cannot be hit, so s = k + 1 is never samplable.
-        let first = Strategy::new(0, k as u32 + 1).index();
-        for i in 0..=k + 1 {
-            self.active[i] = self.samplable[i] && context.settings.strategies.contains_index(first + i);
+        self.activate(context);
+    }
+
+    /// t = 0: becomes the path of a light subpath y₀…y_{k−1} that went on to the point `lens` of the lens. An eye subpath could
+    /// have chosen that point and left it towards y_{k−1}.
+    pub fn join_at_lens(&mut self, context: &Context, y: &[Vertex], lens: &Vertex) {
+        let k = y.len();
+        self.begin(context, k);
+        for (i, v) in y.iter().enumerate() {
+            self.take_light_vertex(i, v, true);
         }
+        self.p_light[k] = lens.pdf_fwd_area;
+        self.p_eye[k] = context.view.pdf_lens();
+        self.p_eye[k - 1] = context.view.pdf_direction_psa(lens.w_prev, lens.position) * lens.geometry_prev;
+        self.activate(context);
     }
 
     /// s = 0: x₀ = z_{t−1} lies on a light, which could have chosen it and emitted towards z_{t−2}.
     #[inline]
     fn join_at_light(&mut self, context: &Context, z: &[Vertex]) {
-        let x0 = &z[z.len() - 1];
-        let light = &context.scene.lights.list[x0.light as usize];
-        self.p_light[0] = light.pdf_area();
-        self.p_light[1] = light.pdf_direction_psa(x0.n_g, x0.w_prev) * x0.geometry_prev;
+        let (x0, lights) = (&z[z.len() - 1], &context.scene.lights);
+        let light = &lights.list[x0.light as usize];
+        self.p_light[0] = lights.pdf_origin(light, x0.w_prev);
+        self.p_light[1] = light.pdf_direction_psa(x0.n_g, x0.w_prev, context.view.disk_pdf) * x0.geometry_prev;
+    }
+
+    #[inline]
+    fn begin(&mut self, context: &Context, k: usize) {
+        self.k = k;
+        self.samplable[..=k].fill(true);
+        // A pinhole cannot be hit.
+        self.samplable[k + 1] = context.view.has_lens();
+    }
+
+    /// x_i = y_i, with the densities its walk recorded; `scatters` if the path goes on the way the walk did.
+    #[inline]
+    fn take_light_vertex(&mut self, i: usize, v: &Vertex, scatters: bool) {
+        self.p_light[i] = v.pdf_fwd_area;
+        self.p_eye[i] = v.pdf_rev_area;
+        if v.is_delta() && scatters {
+            self.no_connection_at(i);
+        }
+        // No eye subpath finds a light without extent.
+        if i == 0 && v.has(DISCRETE) {
+            self.samplable[0] = false;
+        }
+    }
+
+    /// A Dirac at x_i rules out the strategies that would connect there, i and i + 1.
+    #[inline]
+    fn no_connection_at(&mut self, i: usize) {
+        self.samplable[i] = false;
+        self.samplable[i + 1] = false;
+    }
+
+    #[inline]
+    fn activate(&mut self, context: &Context) {
+        let first = Strategy::new(0, self.k as u32 + 1).index();
+        for i in 0..=self.k + 1 {
+            self.active[i] = self.samplable[i] && context.settings.strategies.contains_index(first + i);
+        }
     }
 }
 
@@ -119,7 +159,7 @@ impl Default for FullPath {
 #[inline]
 fn leave_light_vertex_psa(context: &Context, y: &Vertex, s: usize, w: Vec3) -> f32 {
     if s == 1 {
-        return context.scene.lights.list[y.light as usize].pdf_direction_psa(y.n_g, w);
+        return context.scene.lights.list[y.light as usize].pdf_direction_psa(y.n_g, w, context.view.disk_pdf);
     }
     y.survival * context.scene.bsdf(y.n_g, y.n_s, y.material).pdf_psa(y.w_prev, w, TransportMode::Importance)
 }
@@ -128,7 +168,7 @@ fn leave_light_vertex_psa(context: &Context, y: &Vertex, s: usize, w: Vec3) -> f
 #[inline]
 fn leave_eye_vertex_psa(context: &Context, z: &Vertex, t: usize, w: Vec3) -> f32 {
     if t == 1 {
-        return context.view.pdf_direction_psa(w);
+        return context.view.pdf_direction_psa(w, z.position);
     }
     z.survival * context.scene.bsdf(z.n_g, z.n_s, z.material).pdf_psa(z.w_prev, w, TransportMode::Radiance)
 }

@@ -6,7 +6,7 @@
 mod build;
 pub use build::record;
 
-use super::connect::Reason;
+use super::reason::Reason;
 use super::settings::Heuristic;
 use super::strategy::Strategy;
 use super::vertex::End;
@@ -27,15 +27,19 @@ pub enum Measure {
 /// A vertex as it is reported.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct VertexRecord {
-    /// Position in the file's coordinates, m.
+    /// Position in the file's coordinates, m; of a vertex at infinity, somewhere on its line beyond the scene.
     pub position: [f64; 3],
-    /// Geometric normal.
+    /// Geometric normal; at infinity, the direction in which light travels.
     pub n_g: [f32; 3],
     /// Shading normal.
     pub n_s: [f32; 3],
-    /// "lens", "light" or "surface".
+    /// "lens", "light", "surface" or "infinity".
     pub kind: &'static str,
-    /// The material's name in the file; `None` for the lens.
+    /// "area", "point", "spot", "directional" or "environment", if it lies on a light.
+    pub light: Option<&'static str>,
+    /// Name of a light without extent.
+    pub light_name: Option<String>,
+    /// The material's name in the file; `None` where there is no surface.
     pub material: Option<String>,
     /// The material's model.
     pub model: Option<&'static str>,
@@ -75,7 +79,7 @@ pub struct PathVertexRecord {
     /// Density by a light subpath that reaches it through x_{i−1}; `None` where the subpaths could not be joined, and
     /// at a pinhole, which no light subpath can hit.
     pub p_light: Option<f32>,
-    /// Density by an eye subpath that reaches it through x_{i+1}; `None` likewise.
+    /// Density by an eye subpath that reaches it through x_{i+1}; `None` likewise, and at a light without extent.
     pub p_eye: Option<f32>,
 }
 
@@ -85,6 +89,8 @@ pub struct PathVertexRecord {
 pub enum SplitReason {
     /// t = 0, and the lens is a point.
     PinholeCannotBeHit,
+    /// s = 0, and the light is a point or a single direction.
+    LightCannotBeHit,
     /// An end of its connection edge scatters by a Dirac on this path.
     DiracEnd,
     /// One of its walks would never go this way.
@@ -98,6 +104,7 @@ impl SplitReason {
     pub fn text(self) -> &'static str {
         match self {
             Self::PinholeCannotBeHit => "a pinhole has no area that a light subpath could hit",
+            Self::LightCannotBeHit => "the light is a point or a single direction: no eye subpath can hit it",
             Self::DiracEnd => "an end of its connection edge is a mirror or glass vertex of this path",
             Self::ZeroDensity => "one of its walks would never go this way: a density is zero",
             Self::Removed => "the strategy was removed",
@@ -169,7 +176,7 @@ fn vertices_only<S: Serializer>(subpath: &SubpathRecord, serializer: S) -> Resul
 }
 
 /// Version of the estimator and its random numbers: records of the same version, scene and settings are the same.
-pub const RECORD_VERSION: u32 = 1;
+pub const RECORD_VERSION: u32 = 2;
 
 /// Everything about one sample of one pixel, and everything it depends on.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -188,6 +195,10 @@ pub struct PathRecord {
     pub seed: u32,
     /// Film size, pixels.
     pub size: [u32; 2],
+    /// Radius of the lens, m; 0 is a pinhole.
+    pub lens_radius: f32,
+    /// Distance of what is sharp, m; `None` for a pinhole or if it is infinite.
+    pub focus_distance: Option<f32>,
     /// K.
     pub max_edges: u32,
     /// How strategies share a path.

@@ -7,13 +7,13 @@
 //! ```
 
 use super::connect::{Contribution, Sample};
+use super::existence::Existence;
 use super::settings::Settings;
 use super::strategy::{MAX_VERTICES, Strategy};
 use super::walk::Context;
 use crate::film::{Film, Layers, Means, Rect, Row, Splats};
 use crate::math::Vec3;
 use crate::rng::{BLOCK_SPLAT, SampleId};
-use crate::scene::Scene;
 use rayon::prelude::*;
 
 /// Which strategies run, how long the walks must be, and where each strategy's images are in the film. Layer 0 of either
@@ -85,21 +85,18 @@ impl Counts {
 
 impl Plan {
     /// The plan for these settings, with a weighted and/or an unweighted image per strategy.
-    pub fn new(settings: &Settings, scene: &Scene, weighted: bool, raw: bool) -> Self {
+    pub fn new(settings: &Settings, existence: Existence, weighted: bool, raw: bool) -> Self {
         let mut layers = Layers { pixel: 1, splat: 1 };
         let mut take = |strategy: Strategy, wanted: bool| {
             let count = if strategy.stays_in_pixel() { &mut layers.pixel } else { &mut layers.splat };
             *count += usize::from(wanted);
             wanted.then(|| *count - 1)
         };
-        // Without lights no strategy can carry anything.
-        let lit = !scene.lights.list.is_empty();
-        let strategies: Vec<_> = settings
-            .active()
-            .filter(|_| lit)
+        let strategies: Vec<_> = existence
+            .active(settings)
             .map(|strategy| (strategy, Slot { weighted: take(strategy, weighted), raw: take(strategy, raw) }))
             .collect();
-        let walked = |x: &Strategy| x.s >= 2 || x.t == 1 || (x.s == 1 && !settings.fresh_ends);
+        let walked = |x: &Strategy| x.s >= 2 || x.t <= 1 || (x.s == 1 && !settings.fresh_ends);
         let light_vertices = strategies.iter().map(|(x, _)| x).filter(|x| walked(x)).map(|x| x.s).max().unwrap_or(0) as usize;
         let eye_vertices = strategies.iter().map(|(x, _)| x.t).max().unwrap_or(0) as usize;
         let with_t = |t| strategies.iter().filter(|(x, _)| x.t as usize == t).copied().collect();
@@ -118,6 +115,17 @@ impl Plan {
         let layer = if weighted { slot.weighted } else { slot.raw }?;
         Some(LayerId { layer, splat: !strategy.stays_in_pixel() })
     }
+}
+
+/// The quantum of a film's splats, radiance: fine beside what a light path typically adds to a pixel, coarse enough that the
+/// largest splats, those of a small lens hit by chance, still fit.
+pub fn splat_quantum(context: &Context) -> f32 {
+    let (view, power) = (context.view, context.scene.lights.power.max_element());
+    let radius = context.scene.sphere.radius;
+    let typical = power / (view.film_area() * radius * radius) * (-36.0f32).exp2();
+    let lens = if view.has_lens() { power * view.pdf_lens() / view.film_area() * (-44.0f32).exp2() } else { 0.0 };
+    let quantum = typical.max(lens);
+    if quantum.is_finite() && quantum > 1e-36 { quantum } else { (-36.0f32).exp2() }
 }
 
 /// Renders pass number `pass` of the rows of these numbers, on all threads.
@@ -149,8 +157,16 @@ impl Target<'_> {
             let eye_vertices = if self.crop.contains([x, row.y]) { plan.eye_vertices } else { 0 };
             sample.trace(context, id, plan.light_vertices, eye_vertices);
             let (n_light, n_eye) = (sample.light.vertices.len() as u32, sample.eye.vertices.len());
+            for i in 0..sample.crossings.len() {
+                let s = sample.crossings[i].s;
+                if let Some(&(strategy, slot)) = plan.by_t[0].iter().find(|(x, _)| x.s == s)
+                    && let Ok(contribution) = sample.evaluate(context, strategy)
+                {
+                    self.add(strategy, slot, &contribution, id, row);
+                }
+            }
             // Strategies beyond a subpath's end contribute zero; the fresh end of (1, t) needs no light subpath.
-            for family in plan.by_t.iter().take(n_eye + 1) {
+            for family in plan.by_t.iter().take(n_eye + 1).skip(1) {
                 for &(strategy, slot) in family.iter().take_while(|(x, _)| x.s <= n_light.max(1)) {
                     if let Ok(contribution) = sample.evaluate(context, strategy) {
                         self.add(strategy, slot, &contribution, id, row);

@@ -5,12 +5,14 @@
 //! Then p_{s′} must be what every other strategy says it is, f = C* n p must be the same for all, and the weights, each
 //! computed on its own, must sum to one.
 
-use super::connect::{Contribution, Reason, Sample};
+use super::connect::{Contribution, Sample};
+use super::crossing::{Crossing, arrive_at_lens};
 use super::path::FullPath;
+use super::reason::Reason;
 use super::strategy::Strategy;
-use super::vertex::{DELTA, End, ON_LIGHT, ON_SURFACE, Subpath, Vertex};
-use super::walk::Context;
-use crate::math::{Vec2, Vec3, direction_between, geometry_term};
+use super::vertex::{AT_INFINITY, AT_POINT, DELTA, DISCRETE, End, ON_LIGHT, ON_SURFACE, Subpath, Vertex};
+use super::walk::{Context, Step};
+use crate::math::{Vec2, Vec3};
 use crate::rng::SampleId;
 use crate::scene::TransportMode;
 
@@ -36,43 +38,74 @@ pub enum ReplayError {
 
 /// Rebuilds the path `x` = x₀…x_k (the vertices of a sampled path in order from the light) under strategy s.
 pub fn replay(context: &Context, x: &[Vertex], s: usize) -> Result<Replayed, ReplayError> {
-    let t = x.len() - s;
+    let (k, t) = (x.len() - 1, x.len() - s);
     let settings = super::Settings { fresh_ends: false, ..*context.settings };
     let context = Context { settings: &settings, ..*context };
-    let light = if s == 0 { Vec::new() } else { light_walk(&context, x, s)? };
-    let eye = eye_walk(&context, x, t)?;
-    let ln_p = light.iter().chain(&eye).map(|v| f64::from(v.pdf_fwd_area).ln()).sum();
+    if s == 0 && x[0].has(DISCRETE) {
+        return Err(ReplayError::NotWalkable(0));
+    }
+    if t == 0 && !context.view.has_lens() {
+        return Err(ReplayError::NotWalkable(k));
+    }
+    let light = if s == 0 { Walked::default() } else { light_walk(&context, x, s)? };
+    let mut crossings = Vec::new();
+    let eye = if t == 0 {
+        let (Some(step), Some(from)) = (light.step, light.vertices.last()) else { return Err(ReplayError::NotWalkable(k)) };
+        let lens = arrive_at_lens(&context, from, &step, x[k].position).ok_or(ReplayError::NotWalkable(k))?;
+        crossings.push(Crossing { s: s as u32, lens });
+        Vec::new()
+    } else {
+        eye_walk(&context, x, t)?.vertices
+    };
+    let all = light.vertices.iter().chain(&eye).chain(crossings.iter().map(|c| &c.lens));
+    let ln_p = all.map(|v| f64::from(v.pdf_fwd_area).ln()).sum();
 
     // The pixel is the one that the segment at the lens meets.
-    let (at_lens, _) = direction_between(x[x.len() - 1].position, x[x.len() - 2].position);
-    let raster = context.view.project(at_lens).unwrap_or(Vec2::ZERO);
+    let (at_lens, _) = towards(&x[k], &x[k - 1]);
+    let raster = context.view.project(at_lens, x[k].position).unwrap_or(Vec2::ZERO);
     let id = SampleId { x: raster.x as u32, y: raster.y as u32, ..SampleId::default() };
     let ends = |vertices| Subpath { vertices, end: End::MaxEdges };
-    let mut sample = Sample::of(id, raster, ends(light), ends(eye));
+    let mut sample = Sample::of(id, raster, ends(light.vertices), ends(eye), crossings);
     let contribution = sample.evaluate(&context, Strategy::new(s as u32, t as u32)).map_err(ReplayError::Connection)?;
     Ok(Replayed { contribution, path: sample.path, ln_p })
 }
 
-/// y₀…y_{s−1} through x₀…x_{s−1}.
-fn light_walk(context: &Context, x: &[Vertex], s: usize) -> Result<Vec<Vertex>, ReplayError> {
+/// A subpath, and the step it would take next.
+#[derive(Default)]
+struct Walked {
+    vertices: Vec<Vertex>,
+    step: Option<Step>,
+}
+
+/// y₀…y_{s−1} through x₀…x_{s−1}; if x_{s−1} is the lens, up to it, and the step to it.
+fn light_walk(context: &Context, x: &[Vertex], s: usize) -> Result<Walked, ReplayError> {
     let light = &context.scene.lights.list[x[0].light as usize];
-    let pdf = light.pdf_area();
-    let y0 = Vertex { alpha: light.l_e_0() / pdf, pdf_fwd_area: pdf, pdf_rev_area: 0.0, ..bare(&x[0], ON_LIGHT) };
-    let (towards, _) = direction_between(x[0].position, x[1].position);
-    let pdf_psa = light.pdf_direction_psa(y0.n_g, towards);
-    let alpha = y0.alpha * (light.l_e_1(y0.n_g, towards) / pdf_psa);
+    let y0 = context.emit(bare(&x[0], ON_LIGHT | x[0].flags & (AT_INFINITY | AT_POINT | DISCRETE)));
+    let (direction, _) = towards(&x[0], &x[1]);
+    let pdf_fwd_psa = light.pdf_direction_psa(y0.n_g, direction, context.view.disk_pdf);
+    let alpha = y0.alpha * (light.l_e_1(y0.n_g, direction) / pdf_fwd_psa);
     let points: Vec<&Vertex> = x.iter().collect();
-    walk(context, y0, (pdf_psa, alpha), &points, s, TransportMode::Importance)
+    let (through, lens) = if s == x.len() { (&points[..s - 1], Some(points[s - 1])) } else { (&points[..s], None) };
+    walk(context, y0, Step { direction, pdf_fwd_psa, alpha }, through, lens, TransportMode::Importance)
 }
 
 /// z₀…z_{t−1} through x_k…x_{k−t+1}.
-fn eye_walk(context: &Context, x: &[Vertex], t: usize) -> Result<Vec<Vertex>, ReplayError> {
+fn eye_walk(context: &Context, x: &[Vertex], t: usize) -> Result<Walked, ReplayError> {
     let points: Vec<&Vertex> = x.iter().rev().collect();
-    let z0 = context.lens_vertex();
-    let (towards, _) = direction_between(z0.position, points[1].position);
-    let pdf_psa = context.view.pdf_direction_psa(towards);
-    let alpha = z0.alpha * context.view.pixels();
-    walk(context, z0, (pdf_psa, alpha), &points, t, TransportMode::Radiance)
+    let z0 = context.lens_vertex(points[0].position);
+    let (direction, _) = towards(points[0], points[1]);
+    let pdf_fwd_psa = context.view.pdf_direction_psa(direction, z0.position);
+    let step = Step { direction, pdf_fwd_psa, alpha: z0.alpha * context.view.pixels() };
+    walk(context, z0, step, &points[..t], None, TransportMode::Radiance)
+}
+
+/// The edge from `a` to `b`, either of which may be at infinity.
+fn towards(a: &Vertex, b: &Vertex) -> (Vec3, f32) {
+    if !b.has(AT_INFINITY) {
+        return a.edge_to(b);
+    }
+    let (w, geometry) = b.edge_to(a);
+    (-w, geometry)
 }
 
 /// A vertex with its geometry only: nothing of the walk that made it survives.
@@ -89,42 +122,43 @@ fn bare(v: &Vertex, kind: u32) -> Vertex {
     }
 }
 
-/// The walk's recursions, with every direction forced to the next point.
+/// The walk's recursions, with every direction forced to the next of `points`; from the last one on towards `beyond`.
 fn walk(
     context: &Context,
     first: Vertex,
-    (mut pdf_psa, mut alpha): (f32, Vec3),
+    mut step: Step,
     points: &[&Vertex],
-    count: usize,
+    beyond: Option<&Vertex>,
     mode: TransportMode,
-) -> Result<Vec<Vertex>, ReplayError> {
+) -> Result<Walked, ReplayError> {
     let mut vertices = vec![first];
-    for i in 1..count {
+    for i in 1..points.len() {
         let from = vertices[i - 1];
-        let mut v = bare(points[i], ON_SURFACE);
-        let (w, distance_squared) = direction_between(from.position, v.position);
+        let mut v = bare(points[i], ON_SURFACE | points[i].flags & AT_INFINITY);
+        let (w, geometry) = towards(&from, &v);
         v.w_prev = -w;
-        v.geometry_prev = geometry_term(from.n_g, v.n_g, w, distance_squared);
-        v.pdf_fwd_area = pdf_psa * v.geometry_prev;
-        v.alpha = alpha;
-        v.survival = if context.settings.roulette { context.scene.materials[v.material as usize].survival } else { 1.0 };
+        v.geometry_prev = geometry;
+        v.pdf_fwd_area = step.pdf_fwd_psa * v.geometry_prev;
+        v.alpha = step.alpha;
+        let scatters = context.settings.roulette && !v.has(AT_INFINITY);
+        v.survival = if scatters { context.scene.materials[v.material as usize].survival } else { 1.0 };
         if v.pdf_fwd_area <= 0.0 || !v.pdf_fwd_area.is_finite() {
             return Err(ReplayError::NotWalkable(i));
         }
         // Only a walk that goes on scatters here; the last vertex is left to the connection.
-        if i + 1 < count {
-            let (next, _) = direction_between(v.position, points[i + 1].position);
-            let scattered = scatter(context, &v, next, mode).ok_or(ReplayError::NotWalkable(i))?;
+        if let Some(next) = points.get(i + 1).copied().or(beyond) {
+            let (direction, _) = towards(&v, next);
+            let scattered = scatter(context, &v, direction, mode).ok_or(ReplayError::NotWalkable(i))?;
             if scattered.delta {
                 v.flags |= DELTA;
             }
             vertices[i - 1].pdf_rev_area = v.survival * scattered.pdf_rev_psa * v.geometry_prev;
-            pdf_psa = scattered.pdf_fwd_psa * v.survival;
-            alpha = v.alpha * scattered.f / pdf_psa;
+            let pdf_fwd_psa = scattered.pdf_fwd_psa * v.survival;
+            step = Step { direction, pdf_fwd_psa, alpha: v.alpha * scattered.f / pdf_fwd_psa };
         }
         vertices.push(v);
     }
-    Ok(vertices)
+    Ok(Walked { vertices, step: Some(step) })
 }
 
 /// What sampling would have returned had it drawn `next`.

@@ -1,6 +1,6 @@
 //! What a user may choose about the estimator. Densities never depend on the crop window.
 
-use super::strategy::{Strategy, StrategySet};
+use super::strategy::StrategySet;
 use serde::{Deserialize, Serialize};
 
 /// How strategies that can make the same path share it.
@@ -57,12 +57,5 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self { max_edges: 6, seed: 0, heuristic: Heuristic::default(), roulette: true, strategies: StrategySet::ALL, fresh_ends: true }
-    }
-}
-
-impl Settings {
-    /// The strategies that exist under a pinhole and take part, in index order.
-    pub fn active(&self) -> impl Iterator<Item = Strategy> + '_ {
-        Strategy::all(self.max_edges).filter(|&strategy| self.strategies.contains(strategy))
     }
 }

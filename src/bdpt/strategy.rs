@@ -36,10 +36,10 @@ impl Strategy {
         (k - 1) * (k + 4) / 2 + self.s as usize
     }
 
-    /// All strategies with 1 … `max_edges` edges and t ≥ 1, in the order of [`Strategy::index`]; a scene without a lens
-    /// has no others.
-    pub fn all(max_edges: u32) -> impl Iterator<Item = Self> {
-        (1..=max_edges).flat_map(|k| (0..=k).map(move |s| Self::new(s, k + 1 - s)))
+    /// All strategies with 1 … `max_edges` edges in the order of [`Strategy::index`]; t = 0 only with a `lens`: a pinhole cannot
+    /// be hit.
+    pub fn all(max_edges: u32, lens: bool) -> impl Iterator<Item = Self> {
+        (1..=max_edges).flat_map(move |k| (0..=k + u32::from(lens)).map(move |s| Self::new(s, k + 1 - s)))
     }
 
     /// Do its contributions land on the pixel the eye subpath started from? (Else they are splats.)
@@ -100,7 +100,7 @@ impl StrategySet {
     /// The strategies for which `keep` holds.
     pub fn where_(keep: impl Fn(Strategy) -> bool) -> Self {
         let mut set = Self::NONE;
-        for strategy in Strategy::all(MAX_EDGES as u32) {
+        for strategy in Strategy::all(MAX_EDGES as u32, true) {
             set.set(strategy, keep(strategy));
         }
         set
@@ -150,7 +150,7 @@ impl FromIterator<Strategy> for StrategySet {
 
 impl fmt::Debug for StrategySet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_set().entries(Strategy::all(8).filter(|&x| self.contains(x)).map(|x| x.to_string())).finish()
+        f.debug_set().entries(Strategy::all(8, true).filter(|&x| self.contains(x)).map(|x| x.to_string())).finish()
     }
 }
 
@@ -169,13 +169,14 @@ mod tests {
         }
         assert_eq!(expected, COUNT);
         for k in 1..=10 {
-            assert_eq!(Strategy::all(k).count() as u32, k * (k + 3) / 2);
+            assert_eq!(Strategy::all(k, false).count() as u32, k * (k + 3) / 2);
+            assert_eq!(Strategy::all(k, true).count() as u32, k * (k + 5) / 2);
         }
     }
 
     #[test]
     fn names_round_trip() {
-        for strategy in Strategy::all(12) {
+        for strategy in Strategy::all(12, true) {
             assert_eq!(Strategy::parse(&strategy.to_string()), Some(strategy));
         }
         for wrong in ["", "s1", "t2", "s1t", "sxt2", "s-1t2", "s0t1", "s0t0", "s9999t1"] {

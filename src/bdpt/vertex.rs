@@ -1,6 +1,6 @@
 //! Vertices of subpaths, and why a subpath ends.
 
-use crate::math::Vec3;
+use crate::math::{Vec3, direction_between, geometry_term};
 use crate::scene::{NONE, SurfacePoint};
 use crate::shared_struct;
 
@@ -12,25 +12,33 @@ pub const ON_LIGHT: u32 = 2;
 pub const ON_SURFACE: u32 = 4;
 /// The component sampled at this vertex is a Dirac.
 pub const DELTA: u32 = 8;
-/// `pdf_fwd_area` is a probability, not a density: the vertex is the only point that can be chosen (a pinhole).
+/// `pdf_fwd_area` is a probability, not a density: the vertex is the only point that can be chosen (a pinhole, a light of no
+/// extent).
 pub const DISCRETE: u32 = 16;
+/// The vertex is a direction: light arrives from infinity along `n_g`. Its densities are per solid angle, and G to it is the
+/// cosine at the other end; `position` is only somewhere on that line.
+pub const AT_INFINITY: u32 = 32;
+/// The vertex is a point light: there is no cosine at it.
+pub const AT_POINT: u32 = 64;
 
 shared_struct! {
     /// A vertex of a subpath. "fwd" is the direction of its own subpath, "rev" the other's.
     pub struct Vertex {
         /// Position, m, relative to the scene's origin.
         pub position: Vec3,
-        /// One of [`ON_LENS`], [`ON_LIGHT`], [`ON_SURFACE`], with [`DELTA`] and [`DISCRETE`].
+        /// One of [`ON_LENS`], [`ON_LIGHT`], [`ON_SURFACE`], with [`DELTA`], [`DISCRETE`], [`AT_INFINITY`], [`AT_POINT`].
         pub flags: u32,
-        /// Geometric normal (unit); of a pinhole, the camera's axis.
+        /// Geometric normal (unit); of the lens, the camera's axis; of a spot, its axis; of a point light, zero; at infinity,
+        /// the direction in which light travels.
         pub n_g: Vec3,
-        /// Material, or [`NONE`] for the lens.
+        /// Material, or [`NONE`] for the lens, a point light and infinity.
         pub material: u32,
         /// Shading normal (unit).
         pub n_s: Vec3,
         /// Light it lies on, or [`NONE`].
         pub light: u32,
-        /// α of the subpath up to and including this vertex: α^L_{i+1} in W (per channel), α^E_{i+1} in W_e's unit.
+        /// α of the subpath up to and including this vertex: α^L_{i+1} in W (at infinity W m⁻²) per channel, α^E_{i+1} in
+        /// W_e's unit.
         pub alpha: Vec3,
         /// Triangle it lies on, or [`NONE`].
         pub triangle: u32,
@@ -76,6 +84,26 @@ impl Vertex {
     #[inline]
     pub fn is_delta(&self) -> bool {
         self.flags & DELTA != 0
+    }
+
+    /// Is any of these flags set?
+    #[inline]
+    pub fn has(&self, flags: u32) -> bool {
+        self.flags & flags != 0
+    }
+
+    /// The edge from here to `other`, which is not at infinity: the unit direction and G without V (m⁻²; from infinity a pure
+    /// number).
+    #[inline]
+    pub fn edge_to(&self, other: &Self) -> (Vec3, f32) {
+        if self.has(AT_INFINITY) {
+            return (self.n_g, other.n_g.dot(self.n_g).abs());
+        }
+        let (w, distance_squared) = direction_between(self.position, other.position);
+        if self.has(AT_POINT) {
+            return (w, other.n_g.dot(w).abs() / distance_squared);
+        }
+        (w, geometry_term(self.n_g, other.n_g, w, distance_squared))
     }
 
     /// Does it lie on a light?

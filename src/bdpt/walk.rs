@@ -1,17 +1,23 @@
 //! Random walks: the light subpath y₀y₁… and the eye subpath z₀z₁… with their α and densities.
 //!
 //! ```text
-//! α₁^L = L_e⁽⁰⁾(y₀)/P_A(y₀)      α_{i+1} = α_i · f̄(…y_{i−1}…)/(q_{i−1} P_σ⊥(y_{i−1}→y_i))      f̄ at y₀ ≡ L_e⁽¹⁾
-//! α₁^E = W_e⁽⁰⁾(z₀)/P_A(z₀) = 1  (a pinhole's Diracs cancel),                                  f̄ at z₀ ≡ W_e⁽¹⁾
+//! α₁^L = L_e⁽⁰⁾(y₀)/P(y₀)       α_{i+1} = α_i · f̄(…y_{i−1}…)/(q_{i−1} P_σ⊥(y_{i−1}→y_i))      f̄ at y₀ ≡ L_e⁽¹⁾
+//! α₁^E = W_e⁽⁰⁾(z₀)/P_A(z₀) = 1  (lens: both are 1/A_lens; a pinhole's Diracs cancel),         f̄ at z₀ ≡ W_e⁽¹⁾
 //! pdf_fwd_area(y_{i+1}) = q_i P_σ⊥(y_i→y_{i+1}) G(y_i,y_{i+1})     pdf_rev_area(y_{i−1}) = q_i P_σ⊥(y_i→y_{i−1}) G(y_i,y_{i−1})
 //! ```
+//!
+//! An eye subpath that leaves the scene ends in a vertex at infinity if an environment is there. A light subpath crosses the
+//! lens as if it were not there: [`super::crossing`] looks for that.
 //!
 //! A vertex is stored before its roulette, so q_i enters what comes after it, in both directions, and never the vertex itself.
 
 use super::settings::Settings;
-use super::vertex::{DELTA, DISCRETE, End, ON_LENS, ON_LIGHT, ON_SURFACE, Subpath, Vertex};
-use crate::math::{Vec2, Vec3, direction_between, geometry_term, offset_ray_origin};
-use crate::rng::{BLOCK_EYE_START, BLOCK_EYE_VERTEX, BLOCK_LIGHT_DIRECTION, BLOCK_LIGHT_START, BLOCK_LIGHT_VERTEX, SampleId, pair};
+use super::vertex::{AT_INFINITY, AT_POINT, DELTA, DISCRETE, End, ON_LENS, ON_LIGHT, ON_SURFACE, Subpath, Vertex};
+use crate::math::{Frame, Vec2, Vec3, offset_ray_origin, sample_disk};
+use crate::rng::{
+    BLOCK_EYE_START, BLOCK_EYE_VERTEX, BLOCK_LIGHT_DIRECTION, BLOCK_LIGHT_PLACE, BLOCK_LIGHT_START, BLOCK_LIGHT_VERTEX, SampleId, pair,
+};
+use crate::scene::light::{AREA, DIRECTIONAL, ENVIRONMENT};
 use crate::scene::{NONE, Ray, Scene, SurfacePoint, TransportMode, View};
 
 /// What every part of the estimator reads.
@@ -25,11 +31,15 @@ pub struct Context<'a> {
     pub settings: &'a Settings,
 }
 
-/// The next step of a walk: where from, where to, and with what density.
-struct Step {
-    direction: Vec3,
-    pdf_fwd_psa: f32,
-    alpha: Vec3,
+/// The next step of a walk: where to, with what density, and the α that arrives.
+#[derive(Clone, Copy, Debug)]
+pub struct Step {
+    /// Unit direction.
+    pub direction: Vec3,
+    /// P_σ⊥ of it, roulette included, sr⁻¹.
+    pub pdf_fwd_psa: f32,
+    /// α of the vertex it leads to.
+    pub alpha: Vec3,
 }
 
 impl Context<'_> {
@@ -39,54 +49,87 @@ impl Context<'_> {
         if self.settings.roulette { self.scene.materials[material as usize].survival } else { 1.0 }
     }
 
-    /// y₀ at a point drawn on a light with the walk's own density; the numbers choose the light and the point.
+    /// y₀ on a light, drawn with the walk's own density: the numbers of `block` choose the light and the point or the cell of
+    /// the environment, those of `place` the place in it.
     #[inline]
-    pub fn sample_light_vertex(&self, u: [f32; 3]) -> Option<Vertex> {
-        let (index, point) = self.scene.lights.sample_point(self.scene, u)?;
-        let light = &self.scene.lights.list[index as usize];
-        let pdf = light.pdf_area();
-        Some(Vertex { alpha: light.l_e_0() / pdf, pdf_fwd_area: pdf, ..Vertex::on(&point, ON_LIGHT) })
+    pub fn sample_light_vertex(&self, id: SampleId, block: u32, place: u32) -> Option<Vertex> {
+        let (lights, u) = (&self.scene.lights, id.numbers(block));
+        let index = lights.choose(pair(u, 0))?;
+        let light = &lights.list[index as usize];
+        Some(self.emit(match &lights.environment {
+            _ if light.kind == AREA => Vertex::on(&lights.point_on(self.scene, light, pair(u, 2)), ON_LIGHT),
+            Some(map) if light.kind == ENVIRONMENT => {
+                let n_g = -map.sample(pair(u, 2), pair(id.numbers(place), 0));
+                Vertex { n_g, n_s: n_g, ..self.light_vertex(index) }
+            }
+            _ => self.light_vertex(index),
+        }))
     }
 
-    /// z₀ on the lens; a pinhole has one point, chosen with probability 1.
+    /// y₀ with the density of its being chosen, and α₁^L = L_e⁽⁰⁾/P.
     #[inline]
-    pub fn lens_vertex(&self) -> Vertex {
-        let point = SurfacePoint {
-            position: self.view.position,
-            n_g: self.view.axis,
-            n_s: self.view.axis,
-            error: 0.0,
-            triangle: NONE,
-            material: NONE,
-            light: NONE,
+    pub fn emit(&self, y0: Vertex) -> Vertex {
+        let lights = &self.scene.lights;
+        let light = &lights.list[y0.light as usize];
+        let (l_e_0, pdf) = match light.kind {
+            AREA => (light.l_e_0(), light.pdf_area()),
+            ENVIRONMENT => (lights.l_e(light, y0.n_g, y0.n_g), lights.pdf_origin(light, y0.n_g)),
+            _ => (light.l_e_0(), light.pmf),
         };
-        Vertex { alpha: Vec3::ONE, pdf_fwd_area: 1.0, ..Vertex::on(&point, ON_LENS | DISCRETE) }
+        let alpha = if pdf > 0.0 { l_e_0 / pdf } else { Vec3::ZERO };
+        Vertex { alpha, pdf_fwd_area: pdf, ..y0 }
     }
 
-    /// Walks y₀, y₁, … up to `max_vertices`. `rays` counts the rays traced.
-    pub fn light_subpath(&self, id: SampleId, max_vertices: usize, out: &mut Subpath, rays: &mut u64) {
+    /// x₀ on a light that is no surface, without α and density; an environment's direction is still to be set.
+    #[inline]
+    pub fn light_vertex(&self, index: u32) -> Vertex {
+        let light = &self.scene.lights.list[index as usize];
+        let flags = match light.kind {
+            ENVIRONMENT => AT_INFINITY,
+            DIRECTIONAL => AT_INFINITY | DISCRETE,
+            _ => AT_POINT | DISCRETE,
+        };
+        Vertex { light: index, ..Vertex::on(&free_point(light.position, light.axis), ON_LIGHT | flags) }
+    }
+
+    /// z₀ at a point of the lens; a pinhole has one, chosen with probability 1. W_e⁽⁰⁾ = P_A, so α = 1.
+    #[inline]
+    pub fn lens_vertex(&self, point: Vec3) -> Vertex {
+        let flags = if self.view.has_lens() { ON_LENS } else { ON_LENS | DISCRETE };
+        Vertex { alpha: Vec3::ONE, pdf_fwd_area: self.view.pdf_lens(), ..Vertex::on(&free_point(point, self.view.axis), flags) }
+    }
+
+    /// Walks y₀, y₁, … up to `max_vertices`; returns the step that left the scene, if one did. `rays` counts the rays traced.
+    pub fn light_subpath(&self, id: SampleId, max_vertices: usize, out: &mut Subpath, rays: &mut u64) -> Option<Step> {
         out.vertices.clear();
         out.end = End::NotNeeded;
         if max_vertices == 0 {
-            return;
+            return None;
         }
-        let u = id.numbers(BLOCK_LIGHT_START);
-        let Some(y0) = self.sample_light_vertex([u[0], u[1], u[2]]) else {
+        let Some(mut y0) = self.sample_light_vertex(id, BLOCK_LIGHT_START, BLOCK_LIGHT_PLACE) else {
             out.end = End::NoLight;
-            return;
+            return None;
         };
         let light = &self.scene.lights.list[y0.light as usize];
         let u = id.numbers(BLOCK_LIGHT_DIRECTION);
-        let direction = light.sample_direction(y0.n_g, pair(u, 0), u[2]);
-        let pdf_fwd_psa = light.pdf_direction_psa(y0.n_g, direction);
+        let direction = if light.is_infinite() {
+            // Somewhere on a disk before the scene, from which all of it is lit evenly.
+            let (sphere, place, frame) = (self.view.sphere, sample_disk(pair(u, 0)), Frame::around(y0.n_g));
+            y0.position = sphere.centre + (frame.x * place.x + frame.y * place.y - y0.n_g) * sphere.radius;
+            y0.n_g
+        } else {
+            light.sample_direction(y0.n_g, pair(u, 0), u[2])
+        };
+        let pdf_fwd_psa = light.pdf_direction_psa(y0.n_g, direction, self.view.disk_pdf);
         let l_e_1 = light.l_e_1(y0.n_g, direction);
         out.vertices.push(y0);
-        if pdf_fwd_psa <= 0.0 {
+        if pdf_fwd_psa <= 0.0 || y0.alpha == Vec3::ZERO {
             out.end = End::Absorbed;
-            return;
+            return None;
         }
-        let step = Step { direction, pdf_fwd_psa, alpha: y0.alpha * (l_e_1 / pdf_fwd_psa) };
-        out.end = self.walk(step, TransportMode::Importance, id, max_vertices, &mut out.vertices, rays);
+        let mut step = Step { direction, pdf_fwd_psa, alpha: y0.alpha * (l_e_1 / pdf_fwd_psa) };
+        out.end = self.walk(&mut step, TransportMode::Importance, id, max_vertices, &mut out.vertices, rays);
+        (out.end == End::Escaped).then_some(step)
     }
 
     /// Walks z₀, z₁, … up to `max_vertices` through a point of the pixel; returns that raster position.
@@ -97,13 +140,13 @@ impl Context<'_> {
         // x + u may round up to the next pixel; the largest number below it is still this pixel's.
         let inside = |cell: u32, u: f32| (cell as f32 + u).min(((cell + 1) as f32).next_down());
         let raster = Vec2::new(inside(id.x, u[0]), inside(id.y, u[1]));
-        let z0 = self.lens_vertex();
+        let z0 = self.lens_vertex(self.view.sample_lens(pair(u, 2)));
         out.vertices.push(z0);
-        let direction = self.view.direction(raster);
+        let direction = self.view.direction(raster, z0.position);
         // W_e⁽¹⁾/P_σ⊥ = A_film/A_px, the number of pixels.
         let pdf_fwd_psa = self.view.pdf_direction_psa_on_film(direction);
-        let step = Step { direction, pdf_fwd_psa, alpha: z0.alpha * self.view.pixels() };
-        out.end = self.walk(step, TransportMode::Radiance, id, max_vertices, &mut out.vertices, rays);
+        let mut step = Step { direction, pdf_fwd_psa, alpha: z0.alpha * self.view.pixels() };
+        out.end = self.walk(&mut step, TransportMode::Radiance, id, max_vertices, &mut out.vertices, rays);
         raster
     }
 
@@ -111,7 +154,7 @@ impl Context<'_> {
     #[inline]
     fn walk(
         &self,
-        mut step: Step,
+        step: &mut Step,
         mode: TransportMode,
         id: SampleId,
         max_vertices: usize,
@@ -124,8 +167,14 @@ impl Context<'_> {
             let from = &vertices[last];
             *rays += 1;
             let origin = offset_ray_origin(from.position, from.error, from.n_g, step.direction);
-            let Some(point) = self.scene.intersect(&Ray { origin, direction: step.direction }) else { return End::Escaped };
-            let Some(mut vertex) = arrive(from, &point, &step) else { return End::Absorbed };
+            let Some(point) = self.scene.intersect(&Ray { origin, direction: step.direction }) else {
+                if let (TransportMode::Radiance, Some(light)) = (mode, self.scene.lights.environment_index()) {
+                    let vertex = self.arrive_at_infinity(from, light, step);
+                    vertices.push(vertex);
+                }
+                return End::Escaped;
+            };
+            let Some(mut vertex) = arrive(from, &point, step) else { return End::Absorbed };
             vertex.survival = self.survival(vertex.material);
 
             if vertices.len() + 1 == max_vertices {
@@ -146,7 +195,7 @@ impl Context<'_> {
                 vertex.flags |= DELTA;
             }
             vertices[last].pdf_rev_area = vertex.survival * sample.pdf_rev_psa * vertex.geometry_prev;
-            step = Step {
+            *step = Step {
                 direction: sample.w,
                 pdf_fwd_psa: sample.pdf_fwd_psa * vertex.survival,
                 alpha: vertex.alpha * sample.f / (sample.pdf_fwd_psa * vertex.survival),
@@ -158,19 +207,34 @@ impl Context<'_> {
         }
         End::MaxEdges
     }
+    /// The environment's vertex at the end of an eye subpath.
+    fn arrive_at_infinity(&self, from: &Vertex, light: u32, step: &Step) -> Vertex {
+        let geometry = from.n_g.dot(step.direction).abs();
+        let position = from.position + step.direction * self.view.sphere.beyond(from.position);
+        Vertex {
+            position,
+            n_g: -step.direction,
+            n_s: -step.direction,
+            alpha: step.alpha,
+            w_prev: -step.direction,
+            pdf_fwd_area: step.pdf_fwd_psa * geometry,
+            geometry_prev: geometry,
+            ..self.light_vertex(light)
+        }
+    }
+}
+
+/// A point on no surface.
+#[inline]
+fn free_point(position: Vec3, n_g: Vec3) -> SurfacePoint {
+    SurfacePoint { position, n_g, n_s: n_g, error: 0.0, triangle: NONE, material: NONE, light: NONE }
 }
 
 /// The vertex at `point`, reached from `from`; `None` if the two coincide or the edge lies in a surface's plane.
 #[inline]
 fn arrive(from: &Vertex, point: &SurfacePoint, step: &Step) -> Option<Vertex> {
-    let (w, distance_squared) = direction_between(from.position, point.position);
-    let geometry = geometry_term(from.n_g, point.n_g, w, distance_squared);
+    let vertex = Vertex::on(point, ON_SURFACE);
+    let (w, geometry) = from.edge_to(&vertex);
     let pdf = step.pdf_fwd_psa * geometry;
-    (pdf > 0.0 && pdf.is_finite()).then(|| Vertex {
-        alpha: step.alpha,
-        w_prev: -w,
-        pdf_fwd_area: pdf,
-        geometry_prev: geometry,
-        ..Vertex::on(point, ON_SURFACE)
-    })
+    (pdf > 0.0 && pdf.is_finite()).then_some(Vertex { alpha: step.alpha, w_prev: -w, pdf_fwd_area: pdf, geometry_prev: geometry, ..vertex })
 }

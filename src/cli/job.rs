@@ -29,8 +29,11 @@ pub fn prepare(args: &EstimatorArgs, hide: bool) -> Result<Prepared, Failure> {
         strategies: taking_part,
         ..Settings::default()
     };
-    let hide = hide && settings.active().count() > shown.len();
-    let job = Job { scene, camera, size: args.size, crop: None, settings, weighted_layers: hide, raw_layers: false };
+    let mut job = Job { camera, size: args.size, settings, ..Job::new(scene) };
+    let existence = job.existence();
+    let shown: Vec<_> = shown.into_iter().filter(|x| existence.absence(*x).is_none()).collect();
+    let hide = hide && existence.active(&job.settings).count() > shown.len();
+    job.weighted_layers = hide;
     Ok(Prepared { job, shown, hide })
 }
 
@@ -58,7 +61,7 @@ fn strategies(args: &EstimatorArgs, hide: bool) -> Result<(StrategySet, Vec<Stra
         "lt" => StrategySet::light_tracer(),
         _ => StrategySet::ALL,
     };
-    let possible = Strategy::all(args.max_edges).filter(|&strategy| integrator.contains(strategy));
+    let possible = Strategy::all(args.max_edges, true).filter(|&strategy| integrator.contains(strategy));
     let Selection::Listed(listed) = &args.strategies else { return Ok((integrator, possible.collect())) };
     for &strategy in listed {
         check_strategy(strategy, &integrator, args)?;

@@ -59,7 +59,7 @@ pub fn without_window(why: &str, scene: &str) -> Result<(), Failure> {
     eprintln!("rendering {} on the CPU into ./{}/ instead (at most {} s)", scene.name, folder.display(), PATIENCE.as_secs());
     let stem = Path::new(&scene.name).file_stem().unwrap_or("scene".as_ref()).to_string_lossy().into_owned();
     let job = Job { weighted_layers: true, ..Job::new(scene) };
-    let shown = job.settings.active().collect();
+    let shown = job.existence().active(&job.settings).collect();
     create_folder(folder)?;
     let [png, exr] = ["png", "exr"].map(|extension| folder.join(format!("{stem}.{extension}")));
     check_writable(&png)?;

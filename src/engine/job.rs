@@ -2,9 +2,9 @@
 
 use super::Crop;
 use crate::bdpt::render::Plan;
-use crate::bdpt::{MAX_EDGES, Settings};
+use crate::bdpt::{Existence, MAX_EDGES, Settings};
 use crate::film::Film;
-use crate::scene::{Scene, View};
+use crate::scene::{Camera, Lens, Scene, View};
 use std::fmt;
 use std::sync::Arc;
 
@@ -13,6 +13,10 @@ pub const FILM_BUDGET: u128 = 4 << 30;
 /// Longest side of a film, pixels (a random number's counter packs both coordinates into one word).
 pub const MAX_SIDE: u32 = 32_768;
 
+/// Widest lens, in radii of the scene: a wider one sees nothing but blur, and its sphere leaves the scene without light from
+/// infinity.
+pub const MAX_LENS: f32 = 10.0;
+
 /// What to render.
 #[derive(Clone, Debug)]
 pub struct Job {
@@ -20,6 +24,8 @@ pub struct Job {
     pub scene: Arc<Scene>,
     /// Index into the scene's cameras.
     pub camera: usize,
+    /// The lens; `None` = the camera's own.
+    pub lens: Option<Lens>,
     /// Film size, pixels.
     pub size: [u32; 2],
     /// The part of the film that is wanted; `None`: all of it.
@@ -47,12 +53,31 @@ impl std::error::Error for JobError {}
 impl Job {
     /// The job for a scene at the program's defaults: first camera, 512 × 512, K = 6, seed 0.
     pub fn new(scene: Arc<Scene>) -> Self {
-        Self { scene, camera: 0, size: [512, 512], crop: None, settings: Settings::default(), weighted_layers: false, raw_layers: false }
+        Self {
+            scene,
+            camera: 0,
+            lens: None,
+            size: [512, 512],
+            crop: None,
+            settings: Settings::default(),
+            weighted_layers: false,
+            raw_layers: false,
+        }
     }
 
     /// The camera with its film.
     pub fn view(&self) -> View {
-        View::new(&self.scene.cameras[self.camera], self.size[0], self.size[1])
+        View::new(&self.scene, &Camera { lens: self.lens(), ..self.scene.cameras[self.camera].clone() }, self.size)
+    }
+
+    /// The lens it is rendered with.
+    pub fn lens(&self) -> Lens {
+        self.lens.unwrap_or(self.scene.cameras[self.camera].lens)
+    }
+
+    /// Which strategies exist, and why the others do not.
+    pub fn existence(&self) -> Existence {
+        Existence::of(&self.scene, self.lens().radius > 0.0)
     }
 
     /// Can this job be run? The message says what is wrong and what to do.
@@ -67,6 +92,14 @@ impl Job {
         }
         if self.camera >= self.scene.cameras.len() {
             return fail(format!("camera {}: the scene has {}", self.camera, self.scene.cameras.len()));
+        }
+        let lens = self.lens();
+        let widest = MAX_LENS * self.scene.sphere.radius.max(1e-3);
+        if !(0.0..=widest).contains(&lens.radius) {
+            return fail(format!("lens-radius {}: must be 0 (a pinhole) to {widest} m in this scene", lens.radius));
+        }
+        if lens.radius > 0.0 && lens.focus_distance.is_nan() || lens.focus_distance <= 0.0 {
+            return fail(format!("focus-distance {}: must be above 0 m", lens.focus_distance));
         }
         if let Some(c) = self.crop {
             let fits = |start: u32, length: u32, side: u32| length > 0 && start < side && length <= side - start;
@@ -95,6 +128,6 @@ impl Job {
     }
 
     pub(super) fn plan(&self) -> Plan {
-        Plan::new(&self.settings, &self.scene, self.weighted_layers, self.raw_layers)
+        Plan::new(&self.settings, self.existence(), self.weighted_layers, self.raw_layers)
     }
 }

@@ -13,7 +13,7 @@ use crate::math::Vec3;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Largest share of a 64-bit counter that one splat may take; a larger one is cut and counted as saturated.
-const MAX_QUANTA: f32 = (1u64 << 48) as f32;
+const MAX_QUANTA: f32 = (1u64 << 52) as f32;
 
 /// A rectangle of pixels, from the top left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,18 +91,17 @@ impl Film {
         u128::from(size[0]) * u128::from(size[1]) * 3 * (8 * layers.pixel as u128 + 16 * layers.splat as u128)
     }
 
-    /// An empty film; `scale` is a radiance that the scene's brightest splats are typically of (the brightest emitter's),
-    /// from which the quantum follows: 2⁻³⁶ of it, with room for 2²⁸ times it in one pixel and pass.
-    pub fn new(size: [u32; 2], layers: Layers, scale: f32) -> Self {
+    /// An empty film whose splats are counted in multiples of `quantum` (radiance); one splat may be 2⁵² of them, all splats of
+    /// a pass on a pixel 2⁶⁴.
+    pub fn new(size: [u32; 2], layers: Layers, quantum: f32) -> Self {
         let pixels = size[0] as usize * size[1] as usize;
-        let scale = if scale.is_finite() && scale > 1e-25 { scale } else { 1.0 };
         Self {
             size,
             layers,
             sums: vec![0.0; pixels * layers.pixel * 3],
             splats: std::iter::repeat_with(AtomicU64::default).take(pixels * layers.splat * 3).collect(),
             folded: vec![0.0; pixels * layers.splat * 3],
-            quantum: scale * (-36.0f32).exp2(),
+            quantum,
             row_samples: vec![0; size[1] as usize],
         }
     }
@@ -225,9 +224,11 @@ impl Splats<'_> {
 mod tests {
     use super::*;
 
+    const QUANTUM: f32 = 1.0 / (1u64 << 36) as f32;
+
     #[test]
     fn splats_keep_the_mean_and_do_not_care_about_order() {
-        let film = || Film::new([2, 1], Layers { pixel: 1, splat: 1 }, 1.0);
+        let film = || Film::new([2, 1], Layers { pixel: 1, splat: 1 }, QUANTUM);
         let values: Vec<f32> = (0..10_000).map(|i| ((i * 7919) % 10_007) as f32 * 1e-7).collect();
         let mean = |order: &mut dyn Iterator<Item = &f32>| {
             let mut film = film();
@@ -246,7 +247,7 @@ mod tests {
 
     #[test]
     fn a_preview_borrows_the_nearest_row() {
-        let mut film = Film::new([1, 4], Layers { pixel: 1, splat: 1 }, 1.0);
+        let mut film = Film::new([1, 4], Layers { pixel: 1, splat: 1 }, QUANTUM);
         let (mut rows, _) = film.rows(&[1]);
         rows[0].add(0, 0, Vec3::ONE);
         rows[0].count_sample();
@@ -258,7 +259,7 @@ mod tests {
 
     #[test]
     fn a_splat_too_large_to_count_says_so() {
-        let mut film = Film::new([1, 1], Layers { pixel: 1, splat: 1 }, 1.0);
+        let mut film = Film::new([1, 1], Layers { pixel: 1, splat: 1 }, QUANTUM);
         let (_, splats) = film.rows(&[0]);
         assert!(splats.add([0, 0], 0, Vec3::splat(1000.0), [0.5; 3]));
         assert!(!splats.add([0, 0], 0, Vec3::splat(1e9), [0.5; 3]));
@@ -267,7 +268,7 @@ mod tests {
     #[test]
     fn ten_million_samples_keep_their_mean() {
         // An f32 sum of these is 10 % low (0.2699); an f32 running mean drifts.
-        let mut film = Film::new([1, 1], Layers { pixel: 1, splat: 0 }, 1.0);
+        let mut film = Film::new([1, 1], Layers { pixel: 1, splat: 0 }, QUANTUM);
         let (mut rows, _) = film.rows(&[0]);
         for _ in 0..10_000_000 {
             rows[0].add(0, 0, Vec3::splat(0.3));

@@ -201,7 +201,7 @@ mod tests {
             let lit = if strategy == Strategy::new(2, 3) { 0.0 } else { 1.0 };
             pixels.map(|at| Vec3::new(1.0, 0.8, 0.5 + 0.1 * strategy.s as f32) * (lit * glow(at))).collect()
         };
-        let layers: Vec<_> = Strategy::all(max_edges).map(|strategy| (strategy, disc(strategy))).collect();
+        let layers: Vec<_> = Strategy::all(max_edges, false).map(|strategy| (strategy, disc(strategy))).collect();
         let image: Vec<Vec3> = (0..layers[0].1.len()).map(|i| layers.iter().map(|(_, layer)| layer[i]).sum()).collect();
         let details = "512×512 · 64 spp · K = 6 · power heuristic, β = 2 · seed 0".to_owned();
         let heading = Heading { title: "cornell".to_owned(), details, exposure_ev: 0.0, tonemap: ToneMap::Srgb };

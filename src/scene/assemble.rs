@@ -3,7 +3,9 @@
 //! Nothing here knows a file format: the glTF loader fills [`Parts`], and so may a test.
 
 use super::bvh::Bvh;
-use super::{Camera, Lights, Material, NONE, Normals, Scene, SceneError, SceneFeatures, Triangle};
+use super::light::Light;
+use super::sphere::Sphere;
+use super::{Camera, Environment, Lens, Lights, Material, NONE, Normals, Scene, SceneError, SceneFeatures, Triangle};
 use crate::math::{DVec3, Vec3};
 use std::path::Path;
 
@@ -32,7 +34,7 @@ impl PartTriangle {
 }
 
 /// A camera in the file's coordinates.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct PartCamera {
     /// Its name.
     pub name: String,
@@ -44,6 +46,53 @@ pub struct PartCamera {
     pub up: DVec3,
     /// Vertical field of view, radians.
     pub yfov: f64,
+    /// Radius of the aperture, m; 0 is a pinhole.
+    pub lens_radius: f64,
+    /// Distance of the plane that is sharp, m; `None` = of what the middle of the picture shows.
+    pub focus_distance: Option<f64>,
+}
+
+/// A light of no extent, in the file's coordinates. Intensities W sr⁻¹, irradiance W m⁻².
+#[derive(Clone, Debug)]
+pub enum PartLight {
+    /// It shines everywhere.
+    Point {
+        /// Where it is.
+        position: DVec3,
+        /// Its intensity.
+        intensity: Vec3,
+    },
+    /// It shines into a cone.
+    Spot {
+        /// Where it is.
+        position: DVec3,
+        /// The cone's axis, of any length.
+        axis: DVec3,
+        /// The intensity on the axis.
+        intensity: Vec3,
+        /// Angles from the axis (radians, inner ≤ outer) up to which it has its full intensity, and from which it is dark.
+        angles: [f64; 2],
+    },
+    /// Parallel light from infinity.
+    Directional {
+        /// Where it travels, of any length.
+        axis: DVec3,
+        /// On a plane that faces it.
+        irradiance: Vec3,
+    },
+}
+
+impl PartLight {
+    /// The light relative to `origin`; `None` if it has no direction where it needs one.
+    fn relative_to(&self, origin: DVec3) -> Option<Light> {
+        let place = |p: &DVec3| (*p - origin).as_vec3();
+        let unit = |axis: &DVec3| axis.try_normalize().map(|axis| axis.as_vec3());
+        Some(match self {
+            Self::Point { position, intensity } => Light::point(place(position), *intensity),
+            Self::Spot { position, axis, intensity, angles } => Light::spot(place(position), unit(axis)?, *intensity, *angles),
+            Self::Directional { axis, irradiance } => Light::directional(unit(axis)?, *irradiance),
+        })
+    }
 }
 
 /// What a scene is made of, in the file's coordinates.
@@ -57,6 +106,10 @@ pub struct Parts {
     pub materials: Vec<(String, Material)>,
     /// Cameras; [`Parts::with_default_camera`] adds one if there is none.
     pub cameras: Vec<PartCamera>,
+    /// Lights of no extent, with their names.
+    pub lights: Vec<(String, PartLight)>,
+    /// What comes from infinity.
+    pub environment: Option<Environment>,
     /// What is to be told about how these parts came to be.
     pub notes: Vec<String>,
 }
@@ -106,13 +159,17 @@ impl Scene {
     /// Makes the parts a scene.
     ///
     /// # Errors
-    /// If no triangle has an area, there is no usable camera, a coordinate is not finite, the extent exceeds
-    /// [`MAX_EXTENT`], or a triangle names a material that does not exist.
+    /// If no triangle has an area and nothing comes from infinity, there is no usable camera, a coordinate is not finite, the
+    /// extent exceeds [`MAX_EXTENT`], or a triangle names a material that does not exist.
     pub fn assemble(mut parts: Parts) -> Result<Self, SceneError> {
-        if parts.triangles.is_empty() {
+        // With a sky there is something to see even where there is nothing else.
+        let sky = parts.environment.is_some();
+        if parts.triangles.is_empty() && !sky {
             return Err(parts.error("the scene has no triangles; export at least one mesh of triangles"));
         }
-        let bounds = parts.bounds().ok_or_else(|| parts.error("a position is not a finite number; repair the mesh and export it again"))?;
+        let nothing = Bounds { min: DVec3::ZERO, max: DVec3::ZERO };
+        let bounds = if parts.triangles.is_empty() { Some(nothing) } else { parts.bounds() };
+        let bounds = bounds.ok_or_else(|| parts.error("a position is not a finite number; repair the mesh and export it again"))?;
         let extent = (bounds.max - bounds.min).max_element();
         if extent > MAX_EXTENT {
             return Err(parts.error(format!("the scene is {extent:.1e} m wide, at most {MAX_EXTENT:.0e} m can be rendered; scale it down")));
@@ -120,7 +177,7 @@ impl Scene {
         let origin = bounds.centre();
         let (mut triangles, normals) = recentred(&parts, origin)?;
         let dropped = parts.triangles.len() - triangles.len();
-        if triangles.is_empty() {
+        if triangles.is_empty() && !sky {
             return Err(parts.error(format!("the scene has no triangles: all {dropped} are without area")));
         }
         if dropped > 0 {
@@ -132,13 +189,16 @@ impl Scene {
         }
         let cameras = parts.cameras.iter().map(|c| camera(c, origin)).collect::<Option<Vec<_>>>().filter(|list| !list.is_empty());
         let cameras = cameras.ok_or_else(|| parts.error("the scene has no usable camera; add a perspective camera"))?;
+        let sphere = Sphere::around_points(triangles.iter().flat_map(|t| [t.p0, t.p1, t.p2]));
         let bvh = Bvh::build(&mut triangles);
         let (material_names, materials): (Vec<_>, Vec<_>) = parts.materials.into_iter().unzip();
-        let lights = Lights::collect(&mut triangles, &materials);
-        let features = SceneFeatures::of(&triangles, &materials);
-        Ok(Self {
+        let others = parts.lights.iter().filter_map(|(name, light)| Some((name.clone(), light.relative_to(origin)?))).collect();
+        let lights = Lights::collect(&mut triangles, &materials, others, parts.environment, sphere.radius);
+        let features = SceneFeatures::of(&triangles, &materials, &lights);
+        let mut scene = Self {
             name: parts.name,
             origin,
+            sphere,
             triangles,
             normals,
             materials,
@@ -148,7 +208,21 @@ impl Scene {
             cameras,
             notes: parts.notes,
             features,
-        })
+        };
+        for index in 0..scene.cameras.len() {
+            if scene.cameras[index].lens.focus_distance.is_nan() {
+                scene.cameras[index].lens.focus_distance = scene.default_focus(&scene.cameras[index]);
+            }
+        }
+        Ok(scene)
+    }
+
+    /// The distance, along the axis, of what a camera shows in the middle of its picture; if that is nothing, of the scene's
+    /// centre, and if that is not in front, the scene's radius.
+    fn default_focus(&self, camera: &Camera) -> f32 {
+        let seen = self.intersect(&super::Ray { origin: camera.position, direction: camera.axis });
+        let distance = |p: Vec3| Some((p - camera.position).dot(camera.axis)).filter(|d| *d > 0.0);
+        seen.and_then(|point| distance(point.position)).or_else(|| distance(Vec3::ZERO)).unwrap_or(self.sphere.radius)
     }
 }
 
@@ -201,6 +275,8 @@ fn camera(part: &PartCamera, origin: DVec3) -> Option<Camera> {
         up: up.as_vec3(),
         axis: axis.as_vec3(),
         yfov: part.yfov as f32,
+        // NaN until the scene is there to be focused on.
+        lens: Lens { radius: part.lens_radius as f32, focus_distance: part.focus_distance.map_or(f32::NAN, |d| d as f32) },
     })
 }
 

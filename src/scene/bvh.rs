@@ -115,6 +115,12 @@ impl Bvh {
         self.traverse::<true>(triangles, &PreparedRay::new(segment.from, segment.to - segment.from), 1.0, |_| true)
     }
 
+    /// Does a ray hit anything?
+    #[inline]
+    pub fn any_hit_to_infinity(&self, triangles: &[Triangle], ray: &Ray) -> bool {
+        self.traverse::<true>(triangles, &PreparedRay::new(ray.origin, ray.direction), f32::MAX, |_| true)
+    }
+
     /// The hit nearest to the segment's start, `distance` as a fraction of the segment.
     pub fn closest_hit_on_segment(&self, triangles: &[Triangle], segment: &Segment) -> Option<Hit> {
         self.nearest(triangles, &PreparedRay::new(segment.from, segment.to - segment.from), 1.0)

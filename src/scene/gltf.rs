@@ -62,7 +62,7 @@ fn read(name: &str, file: &Path, bytes: &[u8], folder: Option<&Path>) -> Result<
     let list = std::mem::take(&mut materials.list);
     notes.extend(materials.notes());
     notes.extend(ignored_parts(&document));
-    let parts = Parts { name: name.to_owned(), triangles, materials: list, cameras, notes };
+    let parts = Parts { name: name.to_owned(), triangles, materials: list, cameras, notes, ..Parts::default() };
     // Errors name the file as the user did, not as the scene is called.
     Scene::assemble(parts.with_default_camera().with_default_light()).map_err(|e| SceneError { file: file.display().to_string(), ..e })
 }

@@ -3,21 +3,25 @@
 //! Lengths are metres, radiometry is linear RGB (design of glTF numbers: emission in W m⁻² sr⁻¹). Positions are stored
 //! relative to [`Scene::origin`], the centre of the file's bounding box, so that f32 keeps its digits near the scene.
 
+pub mod alias;
 pub mod assemble;
 pub mod bsdf;
 pub mod builtin;
 pub mod bvh;
 pub mod camera;
 pub mod defaults;
+pub mod environment;
 pub mod error;
 pub mod features;
 pub mod gltf;
 pub mod light;
+pub mod sphere;
 
 pub use assemble::Parts;
 pub use bsdf::{Bsdf, BsdfSample, TransportMode};
 pub use bvh::{Bvh, Hit, Ray, Segment};
-pub use camera::{Camera, View};
+pub use camera::{Camera, Lens, View};
+pub use environment::Environment;
 pub use error::SceneError;
 pub use features::SceneFeatures;
 pub use light::Lights;
@@ -167,6 +171,8 @@ pub struct Scene {
     pub name: String,
     /// Position of the stored coordinates' zero in the file's coordinates, m.
     pub origin: DVec3,
+    /// The sphere around all triangles.
+    pub sphere: sphere::Sphere,
     /// Triangles in the order the hierarchy wants them.
     pub triangles: Vec<Triangle>,
     /// Shading normals, for the triangles that have them.
@@ -199,6 +205,12 @@ impl Scene {
     #[inline]
     pub fn visible(&self, segment: &Segment) -> bool {
         !self.bvh.any_hit(&self.triangles, segment)
+    }
+
+    /// Does nothing lie in the way of a ray, however far?
+    #[inline]
+    pub fn visible_to_infinity(&self, ray: &Ray) -> bool {
+        !self.bvh.any_hit_to_infinity(&self.triangles, ray)
     }
 
     /// What blocks a segment first, seen from its start.

@@ -21,7 +21,7 @@ impl Projector {
     /// The projection through the first camera of `scene` for a film of `size` pixels shown at `image`, seen through `clip`.
     pub fn new(scene: &Scene, size: [u32; 2], image: Rect, clip: Rect) -> Option<Self> {
         let camera = scene.cameras.first()?;
-        Some(Self { view: View::new(camera, size[0], size[1]), origin: scene.origin, image, clip })
+        Some(Self { view: View::new(scene, camera, size), origin: scene.origin, image, clip })
     }
 
     /// The screen position of a raster position, pixels.
@@ -36,7 +36,7 @@ impl Projector {
         if w.dot(self.view.axis) <= 1e-6 * w.length().max(1e-6) {
             return None;
         }
-        self.view.project(w).map(|Vec2 { x, y }| self.raster([x, y]))
+        self.view.project(w, self.view.position).map(|Vec2 { x, y }| self.raster([x, y]))
     }
 
     /// The visible part of a segment on the screen, from the image of `a` towards that of `b`.
@@ -53,7 +53,7 @@ impl Projector {
         } else if depth_b < near {
             b = cut;
         }
-        let [p, q] = [a, b].map(|w| self.view.project(w).map(|Vec2 { x, y }| self.raster([x, y])));
+        let [p, q] = [a, b].map(|w| self.view.project(w, self.view.position).map(|Vec2 { x, y }| self.raster([x, y])));
         clip_segment(self.clip, p?, q?)
     }
 
@@ -98,10 +98,11 @@ mod tests {
             up: Vec3::Y,
             axis: -Vec3::Z,
             yfov: std::f32::consts::FRAC_PI_2,
+            lens: crate::scene::Lens { radius: 0.0, focus_distance: 1.0 },
         };
         let image = Rect::from_min_max(pos2(100.0, 0.0), pos2(300.0, 200.0));
         Projector {
-            view: View::new(&camera, 50, 50),
+            view: View::new(&crate::scene::builtin::open("cornell").unwrap(), &camera, [50, 50]),
             origin: DVec3::ZERO,
             image,
             clip: Rect::from_min_max(pos2(0.0, 0.0), pos2(400.0, 200.0)),

@@ -79,16 +79,16 @@ fn families(ui: &mut Ui, state: &mut State) {
         let member = |x: &Strategy| x.role() == role;
         let name = match role {
             Role::Connect => state.say(Text::FamilyConnect).to_owned(),
-            _ => Strategy::all(2).find(member).map(|x| role_name(x, state.prefs.lang)).unwrap_or_default(),
+            _ => Strategy::all(2, true).find(member).map(|x| role_name(x, state.prefs.lang)).unwrap_or_default(),
         };
-        let mut visible = Strategy::all(state.settings.max_edges).filter(member).any(|x| !state.hidden.contains(x));
+        let mut visible = Strategy::all(state.settings.max_edges, false).filter(member).any(|x| !state.hidden.contains(x));
         let help = format!("{}\n{}", state.say(role_help(role)), state.say(Text::HelpFamily));
         let response = ui.toggle_value(&mut visible, name).on_hover_text(help);
         if response.changed() {
             if ui.input(|input| input.modifiers.shift) {
                 state.hidden = StrategySet::where_(|x| x.role() != role);
             } else {
-                Strategy::all(crate::bdpt::MAX_EDGES as u32).filter(member).for_each(|x| state.hidden.set(x, !visible));
+                Strategy::all(crate::bdpt::MAX_EDGES as u32, true).filter(member).for_each(|x| state.hidden.set(x, !visible));
             }
         }
     }

@@ -266,7 +266,7 @@ impl State {
     /// How many of the strategies are hidden, and how many removed (these do not count as hidden).
     pub fn left_out(&self) -> (usize, usize) {
         let removed = |x: &Strategy| !self.settings.strategies.contains(*x);
-        let all = || Strategy::all(self.settings.max_edges);
+        let all = || Strategy::all(self.settings.max_edges, false);
         (all().filter(|x| self.hidden.contains(*x) && !removed(x)).count(), all().filter(removed).count())
     }
 }

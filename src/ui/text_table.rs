@@ -196,6 +196,7 @@ texts! {
     NoSplits: "Splits are shown for strategies that carry light: choose one in the table.", "仅对携带光的策略显示拆分：请在表中选择一个。";
     HelpWeightSum: "The weights of all strategies that can make this path sum to one.", "所有能生成该路径的策略，权重之和为一。";
     SplitPinhole: "a pinhole has no area to be hit", "针孔没有面积，无法命中";
+    SplitLight: "the light has no extent to be hit", "光源没有面积，无法命中";
     SplitDirac: "a mirror or glass at its connection edge", "连接边的一端是镜面或玻璃";
     SplitZero: "its walks never go this way: density is zero", "它的随机游走不会这样走：概率密度为零";
     SplitRemoved: "the strategy was removed", "该策略已被移除";
@@ -204,7 +205,10 @@ texts! {
     ShortLightDirac: "light end is a mirror or glass", "光源侧末端是镜面或玻璃";
     ShortEyeDirac: "eye end is a mirror or glass", "视线侧末端是镜面或玻璃";
     ShortNotOnALight: "does not end on a light", "末端不在光源上";
-    ShortBackOfLight: "back of the light", "光源背面";
+    ShortBackOfLight: "light does not shine there", "光源不照向此处";
+    ShortEyeAtInfinity: "eye end is the environment", "视线侧末端是环境";
+    ShortMissesLens: "misses the lens", "未命中镜头";
+    ShortLightNotShown: "light without extent: not shown", "光源无面积：不显示";
     ShortBehindCamera: "behind the camera", "在相机后方";
     ShortOutsideFilm: "outside the picture", "在画面之外";
     ShortLightBlack: "light end scatters nothing there", "光源侧末端不向此散射";

@@ -1,6 +1,6 @@
 //! Rung 2: sampled paths rebuilt as every strategy that could make them.
 
-use crate::scenes;
+use crate::{emitters_scenes, scenes};
 use bdpt_explorer::bdpt::connect::Sample;
 use bdpt_explorer::bdpt::mis::{log_densities, mis_weight, mis_weights_by_definition};
 use bdpt_explorer::bdpt::path::FullPath;
@@ -39,19 +39,19 @@ type Spoil = fn(&mut FullPath, &[Vertex], usize);
 
 /// Replays every feasible path of `samples` samples.
 fn replay_scene(scene: &Scene, samples: u32, roulette: bool, spoil: Spoil) -> Findings {
-    let view = View::new(&scene.cameras[0], 64, 48);
+    let view = View::new(scene, &scene.cameras[0], [64, 48]);
     let settings = Settings { max_edges: K, roulette, ..Settings::default() };
     let context = Context { scene, view: &view, settings: &settings };
+    let lens = view.has_lens();
     let mut sample = Sample::default();
     let mut found = Findings::default();
     for i in 0..samples {
         let id = SampleId { x: (i * 7) % 64, y: (i * 13 / 64) % 48, sample: i, seed: 3 };
-        sample.trace(&context, id, K as usize, K as usize + 1);
-        for strategy in Strategy::all(K) {
+        sample.trace(&context, id, K as usize + usize::from(lens), K as usize + 1);
+        for strategy in Strategy::all(K, lens) {
             if sample.evaluate(&context, strategy).is_ok() {
-                let (s, t) = (strategy.s as usize, strategy.t as usize);
-                let y = sample.light_vertices(s).iter();
-                let x: Vec<Vertex> = y.chain(sample.eye.vertices[..t].iter().rev()).copied().collect();
+                let (y, z) = (sample.light_vertices(strategy), sample.eye_vertices(strategy));
+                let x: Vec<Vertex> = y.iter().chain(z.iter().rev()).copied().collect();
                 replay_path(&context, &x, &sample.path, spoil, &mut found);
             }
         }
@@ -92,7 +92,8 @@ fn replay_path(context: &Context, x: &[Vertex], original: &FullPath, spoil: Spoi
     let mut f_first: Option<[f64; 3]> = None;
     found.paths += 1;
     found.relaxed += u64::from(slack > 1.0);
-    for s in 0..=original.k {
+    let last = original.k + usize::from(context.view.has_lens());
+    for s in 0..=last {
         if !original.samplable[s] || ln_p[s] == f64::NEG_INFINITY {
             let weight = mis_weights_by_definition(original, &original.active, heuristic)[s];
             found.impossible += u64::from(weight != 0.0);
@@ -113,7 +114,7 @@ fn replay_path(context: &Context, x: &[Vertex], original: &FullPath, spoil: Spoi
         let says = log_densities(&rebuilt.path);
         found.density = found.density.max((rebuilt.ln_p - ln_p[s]).abs() / slack);
         // … and what this strategy's join says of every strategy is what the original's says.
-        for i in (0..=original.k).filter(|&i| original.samplable[i] && ln_p[i].is_finite()) {
+        for i in (0..=last).filter(|&i| original.samplable[i] && ln_p[i].is_finite()) {
             found.density = found.density.max((says[i] - ln_p[i]).abs() / slack);
         }
         let weight = f64::from(mis_weight(&rebuilt.path, s, heuristic));
@@ -139,6 +140,11 @@ fn all_scenes() -> Vec<Arc<Scene>> {
         scenes::tilted(),
         scenes::builtin("cornell"),
         scenes::builtin("cornell-spheres"),
+        emitters_scenes::wide_lens(),
+        emitters_scenes::dirac_lights(),
+        emitters_scenes::under_the_sky(),
+        emitters_scenes::sky_and_glass(),
+        emitters_scenes::everything(),
     ]
 }
 

@@ -89,13 +89,13 @@ fn warps_follow_their_densities() {
 #[test]
 fn the_camera_covers_its_film_with_the_stated_density() {
     let scene = scenes::patches();
-    let view = View::new(&scene.cameras[0], 48, 32);
+    let view = View::new(&scene, &scene.cameras[0], [48, 32]);
     let draw = |i| {
         let u = numbers(i, 4);
-        Some(view.direction(Vec2::new(u[0] * 48.0, u[1] * 32.0)))
+        Some(view.direction(Vec2::new(u[0] * 48.0, u[1] * 32.0), view.position))
     };
     // Per solid angle: times the cosine at the lens. The film's border cuts through bins, so the grid is a fine one.
-    let pdf = |w: Vec3| view.pdf_direction_psa(w) * w.dot(view.axis).max(0.0);
+    let pdf = |w: Vec3| view.pdf_direction_psa(w, view.position) * w.dot(view.axis).max(0.0);
     let (mut inside, n) = (0.0, 4000u32);
     for i in 0..n * n / 16 {
         let z = 1.0 - 2.0 * ((i / n) as f32 + 0.5) / (n / 16) as f32;
@@ -107,16 +107,16 @@ fn the_camera_covers_its_film_with_the_stated_density() {
     assert!((integral - 1.0).abs() < 2e-3, "∫ = {integral}");
     for i in 0..10_000 {
         let w = draw(i).unwrap();
-        let again = view.direction(view.project(w).unwrap());
+        let again = view.direction(view.project(w, view.position).unwrap(), view.position);
         assert!((again - w).length() < 1e-6);
-        assert!((view.w_e(w) / view.pdf_direction_psa(w) / view.pixels() - 1.0).abs() < 1e-6);
+        assert!((view.w_e_1(w, view.position) / view.pdf_direction_psa(w, view.position) / view.pixels() - 1.0).abs() < 1e-6);
     }
 }
 
 #[test]
 fn eye_subpaths_start_uniformly_in_their_pixel() {
     let scene = scenes::patches();
-    let (view, settings) = (View::new(&scene.cameras[0], 600, 400), Settings::default());
+    let (view, settings) = (View::new(&scene, &scene.cameras[0], [600, 400]), Settings::default());
     let context = Context { scene: &scene, view: &view, settings: &settings };
     let mut subpath = Subpath::new();
     let mut in_pixel = |i: u32| {
@@ -145,7 +145,8 @@ fn lights_are_chosen_and_emit_with_the_stated_densities() {
     let mut square = vec![0u64; 64];
     for i in 0..N {
         let u = numbers(i, 1);
-        let (index, point) = lights.sample_point(&scene, [u[0], u[1], u[2]]).unwrap();
+        let index = lights.choose(pair(u, 0)).unwrap();
+        let point = lights.point_on(&scene, &lights.list[index as usize], pair(u, 2));
         observed[index as usize] += 1;
         let p = scene.in_file(point.position);
         if p[0] < 2.0 {
@@ -166,7 +167,7 @@ fn lights_are_chosen_and_emit_with_the_stated_densities() {
             let u = numbers(i, 2);
             Some(light.sample_direction(n, pair(u, 0), u[2]))
         };
-        let p = directions(draw, |w| light.pdf_direction_psa(n, w) * w.dot(n).abs());
+        let p = directions(draw, |w| light.pdf_direction_psa(n, w, 0.0) * w.dot(n).abs());
         assert!(p > LEVEL, "direction, {} sides: p = {p}", light.sides);
     }
 }

@@ -1,8 +1,8 @@
 //! Small scenes for the ladder, built from triangles; each is there for one thing.
 
 use bdpt_explorer::math::{DVec3, Vec3};
-use bdpt_explorer::scene::assemble::{PartCamera, PartTriangle, Parts};
-use bdpt_explorer::scene::{Material, Scene};
+use bdpt_explorer::scene::assemble::{PartCamera, PartLight, PartTriangle, Parts};
+use bdpt_explorer::scene::{Environment, Material, Scene};
 use std::sync::Arc;
 
 /// A scene under construction.
@@ -75,8 +75,33 @@ impl Room {
             axis: DVec3::from(target) - position,
             up: DVec3::Y,
             yfov: yfov_degrees.to_radians(),
+            ..PartCamera::default()
         };
         self.0.cameras.push(camera);
+    }
+
+    /// Gives the last camera a lens, focused at a distance (m).
+    pub fn lens(&mut self, radius: f64, focus_distance: f64) {
+        let camera = self.0.cameras.last_mut().expect("a camera first");
+        (camera.lens_radius, camera.focus_distance) = (radius, Some(focus_distance));
+    }
+
+    pub fn point(&mut self, position: [f64; 3], intensity: Vec3) {
+        self.0.lights.push(("point".into(), PartLight::Point { position: position.into(), intensity }));
+    }
+
+    /// A spot; the angles from its axis in degrees.
+    pub fn spot(&mut self, position: [f64; 3], axis: [f64; 3], intensity: Vec3, angles: [f64; 2]) {
+        let angles = angles.map(f64::to_radians);
+        self.0.lights.push(("spot".into(), PartLight::Spot { position: position.into(), axis: axis.into(), intensity, angles }));
+    }
+
+    pub fn directional(&mut self, axis: [f64; 3], irradiance: Vec3) {
+        self.0.lights.push(("sun".into(), PartLight::Directional { axis: axis.into(), irradiance }));
+    }
+
+    pub fn environment(&mut self, environment: Environment) {
+        self.0.environment = Some(environment);
     }
 
     pub fn build(self) -> Arc<Scene> {

@@ -4,7 +4,7 @@
 //! h = p_i p_j/(p_i + p_j)²: h/p_i = p_j/(p_i + p_j)² ≤ 1/max(p_i, p_j) stays bounded where either density vanishes, and h is 0
 //! where either cannot sample. Both means come from the same pairs of subpaths, so their difference is tested as a pair.
 
-use crate::scenes;
+use crate::{emitters_scenes, scenes};
 use crate::stats::{Moments, z_limit};
 use bdpt_explorer::bdpt::connect::Sample;
 use bdpt_explorer::bdpt::mis::log_densities;
@@ -28,25 +28,27 @@ struct Estimate {
 type Table = BTreeMap<(u32, usize, usize), (Moments, Moments, Moments)>;
 
 fn compare(scene: &Scene, samples: u32, settings: &Settings, spoil: impl Fn(Strategy) -> f64) -> Table {
-    let view = View::new(&scene.cameras[0], 32, 32);
+    let view = View::new(scene, &scene.cameras[0], [32, 32]);
     let context = Context { scene, view: &view, settings };
+    let lens = u32::from(view.has_lens());
     let mut sample = Sample::default();
     let mut table = Table::new();
     for n in 0..samples {
         let id = SampleId { x: n % 32, y: n / 32 % 32, sample: n / 1024, seed: 17 };
-        sample.trace(&context, id, K as usize, K as usize + 1);
+        sample.trace(&context, id, (K + lens) as usize, K as usize + 1);
         for k in 1..=K {
-            let estimates: Vec<Option<Estimate>> = (0..=k)
+            let last = (k + lens) as usize;
+            let estimates: Vec<Option<Estimate>> = (0..=k + lens)
                 .map(|s| {
                     let strategy = Strategy::new(s, k + 1 - s);
                     let contribution = sample.evaluate(&context, strategy).ok()?;
                     let ln_p = log_densities(&sample.path);
-                    let ln_p = (0..=k as usize).map(|i| if sample.path.samplable[i] { ln_p[i] } else { f64::NEG_INFINITY }).collect();
+                    let ln_p = (0..=last).map(|i| if sample.path.samplable[i] { ln_p[i] } else { f64::NEG_INFINITY }).collect();
                     Some(Estimate { value: f64::from(contribution.contribution_unweighted.element_sum()) * spoil(strategy), ln_p })
                 })
                 .collect();
-            for i in 0..=k as usize {
-                for j in i + 1..=k as usize {
+            for i in 0..=last {
+                for j in i + 1..=last {
                     let bounded = |of: usize| estimates[of].as_ref().map_or(0.0, |e| e.value * harmonic(e.ln_p[i], e.ln_p[j]));
                     let (a, b) = (bounded(i), bounded(j));
                     let entry = table.entry((k, i, j)).or_default();
@@ -92,6 +94,10 @@ fn every_pair_of_strategies_agrees_per_length() {
         (scenes::builtin("cornell"), 300_000),
         (scenes::specular(), 300_000),
         (scenes::tilted(), 400_000),
+        (emitters_scenes::wide_lens(), 400_000),
+        (emitters_scenes::dirac_lights(), 400_000),
+        (emitters_scenes::under_the_sky(), 400_000),
+        (emitters_scenes::everything(), 300_000),
     ];
     let mut results = Vec::new();
     for (scene, samples) in &scenes {

@@ -59,7 +59,8 @@ fn no_visible_point_of_indirect_sees_the_lamp() {
         assert_eq!(hit.light, NONE);
         for j in 0..32 {
             let u = |k: i32| ((j * k) as f32 * 0.618_034).fract();
-            let (light, point) = scene.lights.sample_point(&scene, [u(1), u(3), u(7)]).unwrap();
+            let light = scene.lights.choose(Vec2::new(u(1), u(5))).unwrap();
+            let point = scene.lights.point_on(&scene, &scene.lights.list[light as usize], Vec2::new(u(3), u(7)));
             let w = (point.position - hit.position).normalize();
             let from = bdpt_explorer::math::offset_ray_origin(hit.position, hit.error, hit.n_g, w);
             let to = bdpt_explorer::math::offset_ray_origin(point.position, point.error, point.n_g, -w);

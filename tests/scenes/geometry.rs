@@ -75,7 +75,7 @@ fn cameras_look_along_minus_z_with_y_up() {
     assert!((b.axis - Vec3::NEG_X).length() < 1e-6 && (b.right - Vec3::NEG_Z).length() < 1e-6);
     assert_eq!(scene.in_file(b.position), [1.0, 2.0, 3.0]);
     // What is up and to the right of the axis lands up and to the right in the picture.
-    let view = View::new(a, 100, 100);
+    let view = View::new(&scene, a, [100, 100]);
     let raster = view.project(Vec3::new(0.1, 0.2, -1.0)).unwrap();
     assert!(raster.x > 50.0 && raster.y < 50.0, "{raster}");
 }
@@ -101,7 +101,7 @@ fn a_bare_mesh_gets_a_camera_and_a_light() {
         glb.json["nodes"][ball]["scale"] = json!([scale, scale, scale]);
         let scene = load(&glb);
         says(&scene.notes.join(" "), &["one that frames the whole scene was added", "a large one above and behind the camera was added"]);
-        let view = View::new(&scene.cameras[0], 32, 32);
+        let view = View::new(&scene, &scene.cameras[0], [32, 32]);
         let (mut hits, mut lit) = (0, 0);
         for i in 0..32 * 32 {
             let direction = view.direction(Vec2::new((i % 32) as f32 + 0.5, (i / 32) as f32 + 0.5));

@@ -1,12 +1,14 @@
 //! Making a record: the sample is run again by the renderer's own code, and written down.
 
 use super::{Measure, PathRecord, PathVertexRecord, RECORD_VERSION, SplitReason, SplitRecord, StrategyRecord, SubpathRecord, VertexRecord};
-use crate::bdpt::connect::{Contribution, Reason, Sample, segment};
+use crate::bdpt::connect::{Contribution, Sample, segment};
 use crate::bdpt::mis::{log_densities, mis_weights_by_definition};
+use crate::bdpt::path::FullPath;
+use crate::bdpt::reason::Reason;
 use crate::bdpt::strategy::Strategy;
-use crate::bdpt::vertex::{DISCRETE, ON_LENS, ON_LIGHT, Subpath, Vertex};
+use crate::bdpt::vertex::{AT_INFINITY, DISCRETE, ON_LENS, ON_LIGHT, Subpath, Vertex};
 use crate::bdpt::walk::Context;
-use crate::math::direction_between;
+use crate::math::Vec3;
 use crate::rng::SampleId;
 use crate::scene::{NONE, Scene};
 use std::f64::consts::LN_10;
@@ -17,8 +19,9 @@ pub fn record(context: &Context, pixel: [u32; 2], sample: u32) -> PathRecord {
     let id = SampleId { x: pixel[0], y: pixel[1], sample, seed: settings.seed };
     let mut traced = Sample::default();
     let k = settings.max_edges as usize;
-    traced.trace(context, id, k, k + 1);
-    let strategies = Strategy::all(settings.max_edges).map(|strategy| strategy_record(context, &mut traced, strategy)).collect();
+    let lens = context.view.has_lens();
+    traced.trace(context, id, k + usize::from(lens), k + 1);
+    let strategies = Strategy::all(settings.max_edges, lens).map(|strategy| strategy_record(context, &mut traced, strategy)).collect();
     PathRecord {
         version: RECORD_VERSION,
         scene: scene.name.clone(),
@@ -27,6 +30,8 @@ pub fn record(context: &Context, pixel: [u32; 2], sample: u32) -> PathRecord {
         sample,
         seed: settings.seed,
         size: context.view.size,
+        lens_radius: context.view.lens.radius,
+        focus_distance: Some(context.view.lens.focus_distance).filter(|d| lens && d.is_finite()),
         max_edges: settings.max_edges,
         heuristic: settings.heuristic,
         roulette: settings.roulette,
@@ -50,21 +55,26 @@ fn vertex_record(scene: &Scene, v: &Vertex) -> VertexRecord {
         position: scene.in_file(v.position),
         n_g: v.n_g.to_array(),
         n_s: v.n_s.to_array(),
-        kind: if v.flags & ON_LENS != 0 {
-            "lens"
-        } else if v.flags & ON_LIGHT != 0 {
-            "light"
-        } else {
-            "surface"
+        kind: match () {
+            () if v.has(AT_INFINITY) => "infinity",
+            () if v.has(ON_LENS) => "lens",
+            () if v.has(ON_LIGHT) => "light",
+            () => "surface",
         },
+        light: v.emits().then(|| scene.lights.list[v.light as usize].kind_name()),
+        light_name: scene.lights.name(v.light).map(str::to_owned),
         material: on_surface.then(|| scene.material_names[v.material as usize].clone()),
         model: on_surface.then(|| scene.materials[v.material as usize].kind_name()),
         emitter: v.emits(),
         alpha: v.alpha.to_array(),
         pdf_fwd: v.pdf_fwd_area,
-        // No light subpath can hit a pinhole: there is no density to speak of.
-        pdf_rev: (v.pdf_rev_area > 0.0 && v.flags & DISCRETE == 0).then_some(v.pdf_rev_area),
-        measure: if v.flags & DISCRETE != 0 { Measure::Discrete } else { Measure::Area },
+        // Nothing can hit a pinhole or a light without extent: there is no density to speak of.
+        pdf_rev: (v.pdf_rev_area > 0.0 && !v.has(DISCRETE)).then_some(v.pdf_rev_area),
+        measure: match () {
+            () if v.has(DISCRETE) => Measure::Discrete,
+            () if v.has(AT_INFINITY) => Measure::SolidAngle,
+            () => Measure::Area,
+        },
         delta: v.is_delta(),
         survival: v.survival,
     }
@@ -102,9 +112,18 @@ fn strategy_record(context: &Context, sample: &mut Sample, strategy: Strategy) -
             record.reason_text = Some(reason.text());
         }
     }
-    let too_short =
-        matches!(record.reason, Some(Reason::LightSubpathTooShort | Reason::EyeSubpathTooShort | Reason::NoLight | Reason::Removed));
-    if !too_short {
+    let no_path = matches!(
+        record.reason,
+        Some(
+            Reason::LightSubpathTooShort
+                | Reason::EyeSubpathTooShort
+                | Reason::EyeVertexAtInfinity
+                | Reason::LightMissesTheLens
+                | Reason::NoLight
+                | Reason::Removed
+        )
+    );
+    if !no_path {
         record.write_path(context, sample, joined);
     }
     record
@@ -122,31 +141,36 @@ impl StrategyRecord {
 
     /// The path's vertices x₀…x_k, their densities where they could be joined, and the other splits where it carries light.
     fn write_path(&mut self, context: &Context, sample: &Sample, joined: bool) {
-        let (s, t) = (self.s as usize, self.t as usize);
-        let y = sample.light_vertices(s);
-        let z = &sample.eye.vertices[..t];
-        let path = &sample.path;
-        let x = y.iter().chain(z.iter().rev());
-        self.vertices = x
-            .enumerate()
-            .map(|(i, v)| PathVertexRecord {
-                vertex: vertex_record(context.scene, v),
-                fresh: i == 0 && s == 1 && sample.fresh.is_some(),
-                p_light: (joined && v.flags & DISCRETE == 0).then(|| path.p_light[i]),
-                p_eye: joined.then(|| path.p_eye[i]),
-            })
-            .collect();
-        let ln_p: f64 = y.iter().chain(z).map(|v| f64::from(v.pdf_fwd_area).ln()).sum();
+        let (y, z) = (sample.light_vertices(self.strategy()), sample.eye_vertices(self.strategy()));
+        let (path, k) = (&sample.path, y.len() + z.len() - 1);
+        let x: Vec<&Vertex> = y.iter().chain(z.iter().rev()).collect();
+        let record = |(i, v): (usize, &&Vertex)| PathVertexRecord {
+            vertex: VertexRecord {
+                // A fresh direction has no place of its own: it is drawn where the line to x₁ comes from.
+                position: context.scene.in_file(if v.has(AT_INFINITY) { before(context, x[1], v.n_g) } else { v.position }),
+                ..vertex_record(context.scene, v)
+            },
+            fresh: (i == 0 && sample.fresh_light.is_some()) || (i == k && sample.fresh_lens.is_some()),
+            p_light: (joined && (i == 0 || !v.has(DISCRETE))).then(|| path.p_light[i]),
+            p_eye: (joined && (i == k || !v.has(DISCRETE))).then(|| path.p_eye[i]),
+        };
+        self.vertices = x.iter().enumerate().map(record).collect();
+        let ln_p: f64 = x.iter().map(|v| f64::from(v.pdf_fwd_area).ln()).sum();
         self.p = ln_p.is_finite().then_some(ln_p / LN_10);
-        if self.reason == Some(Reason::Blocked) {
-            let (a, b) = (&y[s - 1], &z[t - 1]);
-            let (w, _) = direction_between(a.position, b.position);
-            self.blocker = context.scene.blocker(&segment(a, b, w)).map(|point| context.scene.in_file(point.position));
+        if let (Some(Reason::Blocked), Some(a), Some(b)) = (self.reason, y.last(), z.last()) {
+            let (w, _) = a.edge_to(b);
+            let start = if a.has(AT_INFINITY) { Vertex { position: before(context, b, a.n_g), ..*a } } else { *a };
+            self.blocker = context.scene.blocker(&segment(&start, b, w)).map(|point| context.scene.in_file(point.position));
         }
         if self.feasible {
             self.splits = splits(context, sample);
         }
     }
+}
+
+/// A point from which light that travels along `direction` comes to `v`, beyond the scene.
+fn before(context: &Context, v: &Vertex, direction: Vec3) -> Vec3 {
+    v.position - direction * context.view.sphere.beyond(v.position)
 }
 
 /// The path joined last under every strategy that has its number of edges.
@@ -156,7 +180,7 @@ fn splits(context: &Context, sample: &Sample) -> Vec<SplitRecord> {
     let weights = mis_weights_by_definition(path, &path.active, &context.settings.heuristic);
     (0..=path.k + 1)
         .map(|s| {
-            let reason = split_reason(path.k, s, path.samplable[s], path.active[s], ln_p[s]);
+            let reason = split_reason(context, path, s, ln_p[s]);
             SplitRecord {
                 s: s as u32,
                 t: (path.k + 1 - s) as u32,
@@ -170,16 +194,18 @@ fn splits(context: &Context, sample: &Sample) -> Vec<SplitRecord> {
         .collect()
 }
 
-fn split_reason(k: usize, s: usize, samplable: bool, active: bool, ln_p: f64) -> Option<SplitReason> {
-    if s == k + 1 {
-        Some(SplitReason::PinholeCannotBeHit)
-    } else if !samplable {
-        Some(SplitReason::DiracEnd)
-    } else if ln_p == f64::NEG_INFINITY {
-        Some(SplitReason::ZeroDensity)
-    } else if !active {
-        Some(SplitReason::Removed)
-    } else {
-        None
+fn split_reason(context: &Context, path: &FullPath, s: usize, ln_p: f64) -> Option<SplitReason> {
+    if path.samplable[s] {
+        return match () {
+            () if ln_p == f64::NEG_INFINITY => Some(SplitReason::ZeroDensity),
+            () if !path.active[s] => Some(SplitReason::Removed),
+            () => None,
+        };
     }
+    // s = 0 and s = k + 1 have no connection that a Dirac could spoil.
+    Some(match s {
+        0 => SplitReason::LightCannotBeHit,
+        s if s == path.k + 1 && !context.view.has_lens() => SplitReason::PinholeCannotBeHit,
+        _ => SplitReason::DiracEnd,
+    })
 }

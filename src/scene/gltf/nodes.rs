@@ -117,7 +117,7 @@ pub fn cameras(document: &Document, placed: &[Placed], notes: &mut Vec<String>) 
             }
             let copies = list.iter().filter(|other| other.name == name || other.name.starts_with(&format!("{name} ("))).count();
             let name = if copies == 0 { name } else { format!("{name} ({})", copies + 1) };
-            list.push(PartCamera { name, position: axes.w_axis.truncate(), axis, up, yfov });
+            list.push(PartCamera { name, position: axes.w_axis.truncate(), axis, up, yfov, ..PartCamera::default() });
         }
     }
     Ok(list)

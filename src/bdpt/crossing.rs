@@ -1,0 +1,73 @@
+//! t = 0: where a light subpath crosses the lens. The lens is a disk that blocks nothing: the crossing ends one path, and the
+//! walk goes on.
+//!
+//! ```text
+//! x_k = the crossing        P_A(x_k) = q(y_{k−1}) P_σ⊥(y_{k−1}→x_k) G        C*_{k+1,0} = α^L_{k+1} W_e⁽⁰⁾ W_e⁽¹⁾(x_{k−1}→x_k) / n
+//! ```
+
+use super::connect::segment;
+use super::vertex::{AT_INFINITY, Subpath, Vertex};
+use super::walk::{Context, Step};
+use crate::math::offset_ray_origin;
+use crate::scene::Ray;
+
+/// A light subpath's way through the lens.
+#[derive(Clone, Copy, Debug)]
+pub struct Crossing {
+    /// s of its strategy (s, 0): the vertices before it, and itself.
+    pub s: u32,
+    /// The vertex on the lens, as the light subpath reaches it.
+    pub lens: Vertex,
+}
+
+/// Finds the crossings of y₀…y_{n−1} and of the step `last` that left the scene. Each edge has at most one.
+pub fn find(context: &Context, light: &Subpath, last: Option<Step>, out: &mut Vec<Crossing>, rays_shadow: &mut u64) {
+    out.clear();
+    if !context.view.has_lens() {
+        return;
+    }
+    for (i, pair) in light.vertices.windows(2).enumerate() {
+        let (from, to) = (&pair[0], &pair[1]);
+        // What the walk drew is still in the vertex it led to.
+        let step = Step { direction: -to.w_prev, pdf_fwd_psa: to.pdf_fwd_area / to.geometry_prev, alpha: to.alpha };
+        out.extend(crossing(context, from, &step, rays_shadow).map(|lens| Crossing { s: i as u32 + 2, lens }));
+    }
+    if let (Some(step), Some(from)) = (last, light.vertices.last()) {
+        let s = light.vertices.len() as u32 + 1;
+        out.extend(crossing(context, from, &step, rays_shadow).map(|lens| Crossing { s, lens }));
+    }
+}
+
+/// The vertex at which a step from `from` crosses the lens, if nothing lies before it.
+fn crossing(context: &Context, from: &Vertex, step: &Step, rays_shadow: &mut u64) -> Option<Vertex> {
+    let (_, point) = context.view.cross_lens(from.position, step.direction)?;
+    let lens = arrive_at_lens(context, from, step, point)?;
+    *rays_shadow += 1;
+    visible(context, from, &lens).then_some(lens)
+}
+
+/// The lens vertex at `point` as a step from `from` reaches it; `None` if the edge has no G.
+pub fn arrive_at_lens(context: &Context, from: &Vertex, step: &Step, point: crate::math::Vec3) -> Option<Vertex> {
+    let lens = context.lens_vertex(point);
+    let (w, geometry) = from.edge_to(&lens);
+    let pdf = step.pdf_fwd_psa * geometry;
+    (pdf > 0.0 && pdf.is_finite()).then_some(Vertex {
+        alpha: step.alpha,
+        w_prev: -w,
+        pdf_fwd_area: pdf,
+        pdf_rev_area: context.view.pdf_lens(),
+        geometry_prev: geometry,
+        ..lens
+    })
+}
+
+/// V of the edge between a light vertex and a surface or lens vertex.
+#[inline]
+pub fn visible(context: &Context, a: &Vertex, b: &Vertex) -> bool {
+    if a.has(AT_INFINITY) {
+        let origin = offset_ray_origin(b.position, b.error, b.n_g, -a.n_g);
+        return context.scene.visible_to_infinity(&Ray { origin, direction: -a.n_g });
+    }
+    let (w, _) = a.edge_to(b);
+    context.scene.visible(&segment(a, b, w))
+}

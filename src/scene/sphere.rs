@@ -1,0 +1,60 @@
+//! The sphere around a scene: light from infinity starts on a disk of it.
+
+use crate::math::Vec3;
+
+/// A sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    /// Its centre, m, relative to the scene's origin.
+    pub centre: Vec3,
+    /// Its radius, m.
+    pub radius: f32,
+}
+
+/// Spheres are this much larger than what they hold: a rounding must not leave anything outside.
+const MARGIN: f32 = 1.0 + 1e-4;
+
+impl Sphere {
+    /// The sphere at the origin around these points; of radius 1 if there are none, or only one.
+    pub fn around_points(points: impl Iterator<Item = Vec3>) -> Self {
+        let radius = points.map(|p| p.length()).fold(0.0, f32::max) * MARGIN;
+        Self { centre: Vec3::ZERO, radius: if radius > 0.0 { radius } else { 1.0 } }
+    }
+
+    /// The smallest sphere around this one and another.
+    #[must_use]
+    pub fn around(self, centre: Vec3, radius: f32) -> Self {
+        let (offset, radius) = (centre - self.centre, radius * MARGIN);
+        let distance = offset.length();
+        if distance + radius <= self.radius {
+            return self;
+        }
+        if distance + self.radius <= radius {
+            return Self { centre, radius };
+        }
+        let both = 0.5 * (distance + self.radius + radius);
+        Self { centre: self.centre + offset * ((both - self.radius) / distance), radius: both * MARGIN }
+    }
+
+    /// A distance from `p` beyond which, in any direction, nothing of the sphere is left, m.
+    pub fn beyond(&self, p: Vec3) -> f32 {
+        (p - self.centre).length() + self.radius
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sphere_holds_what_it_is_said_to_hold() {
+        let scene = Sphere { centre: Vec3::ZERO, radius: 1.0 };
+        for (centre, radius) in [(Vec3::X * 5.0, 0.5), (Vec3::Y * 0.2, 0.1), (Vec3::Z, 30.0), (Vec3::new(1e4, 0.0, 1.0), 1e-3)] {
+            let both = scene.around(centre, radius);
+            for (c, r) in [(scene.centre, scene.radius), (centre, radius)] {
+                assert!((c - both.centre).length() + r <= both.radius, "{both:?} does not hold {c} {r}");
+            }
+            assert!(both.radius <= (centre.length() + radius + 1.0).max(radius) * 1.001);
+        }
+    }
+}

@@ -1,0 +1,252 @@
+#!/usr/bin/env python3
+"""Does the program's picture of a scene agree with Mitsuba 3's?
+
+    python3 -m venv venv && venv/bin/pip install mitsuba numpy
+    venv/bin/python tests/mitsuba/compare.py SCENE.glb [--size 64x64] [--max-edges 5] [--spp 64] [--seeds 32]
+
+Both render the scene with the same K and with independent seeds, the program bidirectionally, Mitsuba with its path
+tracer (variant scalar_rgb, box filter, no roulette).  Two pictures agree if the means over the whole picture do, of R, G,
+B and their mean, all four at a joint level of 99.9 %, and if none of their blocks of 16×16 pixels differs by more than 4.5
+standard errors.  The table says how large an error would have been found; if that is too large to mean anything, the
+answer is none.  `scene.py` says what can be compared; everything else is refused.
+
+Exit status: 0 they agree, 1 they do not, 2 the input cannot be used or there are too few samples to tell.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+try:
+    import mitsuba as mi
+    import numpy as np
+
+    mi.set_variant("scalar_rgb")
+except ImportError as missing:
+    print(f"error: {missing}; install it with: pip install mitsuba numpy", file=sys.stderr)
+    sys.exit(2)
+
+from agreement import BLOCK, BLOCK_LIMIT, average, compare, judge
+from gltf import Unusable
+from scene import Scene, load, to_mitsuba
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+
+
+def main() -> int:
+    """The command line."""
+    args = parse_arguments()
+    try:
+        report = run(args)
+    except Unusable as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    print(json.dumps(report, indent=1) if args.json else table(report))
+    return {"AGREE": 0, "FAILED": 1}.get(report["verdict"], 2)
+
+
+def parse_arguments() -> argparse.Namespace:
+    """What the user asks for."""
+    parser = argparse.ArgumentParser(
+        description="Compares the program's picture of a scene with Mitsuba 3's."
+    )
+    parser.add_argument("scene", type=Path, metavar="SCENE", help="a .glb or .gltf file")
+    program = REPOSITORY / "target/release/bdpt-explorer"
+    parser.add_argument(
+        "--program", type=Path, default=program, help="the program [target/release/bdpt-explorer]"
+    )
+    parser.add_argument(
+        "--size", type=size, default=(64, 64), metavar="WxH", help="size of the picture [64x64]"
+    )
+    parser.add_argument(
+        "--max-edges",
+        type=positive,
+        default=5,
+        metavar="K",
+        help="K, the most edges of a path [5]",
+    )
+    parser.add_argument(
+        "--spp", type=positive, default=64, metavar="N", help="our samples per pixel and seed [64]"
+    )
+    parser.add_argument(
+        "--mitsuba-spp",
+        type=positive,
+        metavar="N",
+        help="Mitsuba's samples per pixel and seed [as --spp]",
+    )
+    parser.add_argument(
+        "--seeds",
+        type=positive,
+        default=32,
+        metavar="M",
+        help="independent pictures of each, at least 16 [32]",
+    )
+    parser.add_argument(
+        "--first-seed", type=int, default=0, metavar="S", help="seeds are S, S + 1, … [0]"
+    )
+    parser.add_argument(
+        "--scale",
+        type=float,
+        default=1.0,
+        metavar="F",
+        help="negative control: multiplies our picture by F",
+    )
+    parser.add_argument(
+        "--save",
+        type=Path,
+        metavar="DIR",
+        help="writes ours.exr, mitsuba.exr and sigma.exr (per block)",
+    )
+    parser.add_argument("--json", action="store_true", help="prints JSON instead of a table")
+    args = parser.parse_args()
+    args.mitsuba_spp = args.mitsuba_spp or args.spp
+    return args
+
+
+def size(text: str) -> tuple[int, int]:
+    """WxH."""
+    width, height = (positive(part) for part in text.split("x"))
+    return width, height
+
+
+def positive(text: str) -> int:
+    """A number of things."""
+    number = int(text)
+    if number < 1:
+        raise ValueError(text)
+    return number
+
+
+def run(args: argparse.Namespace) -> dict:
+    """Renders both and compares."""
+    if args.seeds < 16:
+        raise Unusable(f"--seeds {args.seeds}: fewer than 16 do not tell their own variance")
+    scene = load(args.scene)
+    for note in scene.notes:
+        print(f"note: {note}", file=sys.stderr)
+    start = time.monotonic()
+    theirs = render_mitsuba(scene, args)
+    middle = time.monotonic()
+    ours = render_ours(args) * args.scale
+    end = time.monotonic()
+    report = {
+        "scene": str(args.scene),
+        "size": args.size,
+        "max_edges": args.max_edges,
+        "seeds": args.seeds,
+        "spp": [args.spp, args.mitsuba_spp],
+        "scale": args.scale,
+        "seconds": [round(end - middle, 1), round(middle - start, 1)],
+        "mitsuba": mi.__version__,
+        **judge(ours, theirs),
+    }
+    if args.save:
+        save(args.save, ours, theirs)
+    return report
+
+
+def render_mitsuba(scene: Scene, args: argparse.Namespace) -> np.ndarray:
+    """Mitsuba's pictures, [seed, y, x, channel]."""
+    with tempfile.TemporaryDirectory() as folder:
+        loaded = mi.load_dict(to_mitsuba(scene, Path(folder), args.size, args.max_edges))
+    seeds = range(args.first_seed, args.first_seed + args.seeds)
+    return np.stack(
+        [np.array(mi.render(loaded, spp=args.mitsuba_spp, seed=seed), float) for seed in seeds]
+    )
+
+
+def render_ours(args: argparse.Namespace) -> np.ndarray:
+    """The program's pictures, [seed, y, x, channel]."""
+    pictures = []
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "ours.exr"
+        for seed in range(args.first_seed, args.first_seed + args.seeds):
+            options = {
+                "--size": "x".join(map(str, args.size)),
+                "--max-edges": args.max_edges,
+                "--spp": args.spp,
+                "--seed": seed,
+            }
+            command = [
+                args.program,
+                "render",
+                args.scene,
+                "-o",
+                file,
+                *(part for item in options.items() for part in item),
+            ]
+            try:
+                done = subprocess.run(
+                    [os.fspath(c) if isinstance(c, Path) else str(c) for c in command],
+                    capture_output=True,
+                )
+            except OSError as error:
+                raise Unusable(
+                    f"{args.program}: cannot be run ({error.strerror}); build it or name it with --program"
+                ) from error
+            if done.returncode != 0:
+                raise Unusable(
+                    f"the program failed: {done.stderr.decode(errors='replace').strip()}"
+                )
+            bitmap = mi.Bitmap(str(file)).convert(
+                mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False
+            )
+            pictures.append(np.array(bitmap, float))
+    return np.stack(pictures)
+
+
+def save(folder: Path, ours: np.ndarray, theirs: np.ndarray) -> None:
+    """Writes the mean pictures and the blocks' deviations, one pixel each."""
+    folder.mkdir(parents=True, exist_ok=True)
+    sigma = compare(average(ours, BLOCK), average(theirs, BLOCK), BLOCK_LIMIT)["sigma"][..., 1:]
+    for name, picture in (
+        ("ours", ours.mean(axis=0)),
+        ("mitsuba", theirs.mean(axis=0)),
+        ("sigma", sigma),
+    ):
+        mi.Bitmap(picture.astype(np.float32)).write(str(folder / f"{name}.exr"))
+
+
+def table(report: dict) -> str:
+    """The report for a person."""
+    (width, height), (spp, mitsuba_spp), (ours, theirs) = (
+        report["size"],
+        report["spp"],
+        report["seconds"],
+    )
+    scale = "" if report["scale"] == 1 else f", our picture multiplied by {report['scale']}"
+    lines = [
+        f"{report['scene']}: {width}x{height}, K = {report['max_edges']}, {report['seeds']} seeds{scale}",
+        f"ours {spp} spp, {ours} s · Mitsuba {report['mitsuba']} {mitsuba_spp} spp, {theirs} s",
+        "",
+        f"{'':24}{'ours':>11}{'Mitsuba':>11}{'difference':>12}{'sigma':>8}{'limit':>7}{'would see':>11}",
+    ]
+    for part, limit in zip(("mean", "block"), report["limits"]):
+        for row in report["rows"]:
+            x = row[part]
+            name = (
+                f"mean of {row['quantity']}"
+                if part == "mean"
+                else f"block {x['pixel'][0]},{x['pixel'][1]} {row['quantity']}"
+            )
+            figures = f"{x['ours']:11.5g}{x['mitsuba']:11.5g}{x['relative']:+12.2%}{x['sigma']:+8.2f}{limit:7.2f}{x['seen']:11.2%}"
+            lines.append(f"{name:24}{figures}")
+        lines.append("")
+    lines.append(
+        "block: the worst of all, by its left upper pixel, and what half of the blocks would see"
+    )
+    lines.append(
+        f"{report['verdict']}{': ' if report['reasons'] else ''}{'; '.join(report['reasons'])}"
+    )
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
