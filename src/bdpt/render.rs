@@ -117,15 +117,15 @@ impl Plan {
     }
 }
 
-/// The quantum of a film's splats, radiance: fine beside what a light path typically adds to a pixel, coarse enough that the
-/// largest splats, those of a small lens hit by chance, still fit.
+/// The quantum of a film's splats, radiance: fine beside what a light path typically adds to a pixel, Φ/(A_film R²), and coarse
+/// enough that a splat of a small lens hit by chance, Φ/(A_film A_lens), still fits.
 pub fn splat_quantum(context: &Context) -> f32 {
     let (view, power) = (context.view, context.scene.lights.power.max_element());
     let radius = context.scene.sphere.radius;
-    let typical = power / (view.film_area() * radius * radius) * (-36.0f32).exp2();
-    let lens = if view.has_lens() { power * view.pdf_lens() / view.film_area() * (-44.0f32).exp2() } else { 0.0 };
+    let typical = power / (view.film_area() * radius * radius) * (-30.0f32).exp2();
+    let lens = if view.has_lens() { power * view.pdf_lens() / view.film_area() * (-56.0f32).exp2() } else { 0.0 };
     let quantum = typical.max(lens);
-    if quantum.is_finite() && quantum > 1e-36 { quantum } else { (-36.0f32).exp2() }
+    if quantum.is_finite() && quantum > 1e-36 { quantum } else { (-30.0f32).exp2() }
 }
 
 /// Renders pass number `pass` of the rows of these numbers, on all threads.

@@ -12,8 +12,8 @@ pub mod tonemap;
 use crate::math::Vec3;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Largest share of a 64-bit counter that one splat may take; a larger one is cut and counted as saturated.
-const MAX_QUANTA: f32 = (1u64 << 52) as f32;
+/// Most quanta that a 64-bit counter may hold in a pass: half of what it can, so that no thread meets it wrapped around.
+const MAX_QUANTA: u64 = 1 << 63;
 
 /// A rectangle of pixels, from the top left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,8 +91,8 @@ impl Film {
         u128::from(size[0]) * u128::from(size[1]) * 3 * (8 * layers.pixel as u128 + 16 * layers.splat as u128)
     }
 
-    /// An empty film whose splats are counted in multiples of `quantum` (radiance); one splat may be 2⁵² of them, all splats of
-    /// a pass on a pixel 2⁶⁴.
+    /// An empty film whose splats are counted in multiples of `quantum` (radiance); all splats of a pass on a pixel together may
+    /// be 2⁶³ of them.
     pub fn new(size: [u32; 2], layers: Layers, quantum: f32) -> Self {
         let pixels = size[0] as usize * size[1] as usize;
         Self {
@@ -207,13 +207,16 @@ impl Splats<'_> {
         let mut fits = true;
         for (c, value) in value.to_array().into_iter().enumerate() {
             let quanta = value / self.quantum;
-            fits &= quanta < MAX_QUANTA;
             // Above 2²⁴ an f32 has no fraction left to round.
-            let quanta = quanta.min(MAX_QUANTA);
             let whole = quanta.floor();
-            let rounded = whole as u64 + u64::from(u[c] < quanta - whole);
+            let rounded = (whole as u64 + u64::from(u[c] < quanta - whole)).min(MAX_QUANTA);
             if rounded > 0 {
-                self.cells[at + c].fetch_add(rounded, Ordering::Relaxed);
+                let before = self.cells[at + c].fetch_add(rounded, Ordering::Relaxed);
+                if before >= MAX_QUANTA - rounded {
+                    // Too much for the counter: this splat is left out, and the caller told.
+                    self.cells[at + c].fetch_sub(rounded, Ordering::Relaxed);
+                    fits = false;
+                }
             }
         }
         fits
@@ -263,6 +266,12 @@ mod tests {
         let (_, splats) = film.rows(&[0]);
         assert!(splats.add([0, 0], 0, Vec3::splat(1000.0), [0.5; 3]));
         assert!(!splats.add([0, 0], 0, Vec3::splat(1e9), [0.5; 3]));
+        assert_eq!(film.means().splat(0, 0), Vec3::ZERO, "no pass is complete");
+        let (mut rows, splats) = film.rows(&[0]);
+        rows[0].count_sample();
+        assert!((0..140).filter(|_| !splats.add([0, 0], 0, Vec3::splat(1e6), [0.5; 3])).count() >= 6, "together they are too many");
+        drop(rows);
+        assert!(film.means().splat(0, 0).x < 1.4e8);
     }
 
     #[test]

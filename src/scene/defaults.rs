@@ -58,7 +58,14 @@ fn framed_camera(bounds: &Bounds) -> PartCamera {
         corner.dot(back) + corner.dot(right).abs().max(corner.dot(up).abs()) * MARGIN / tan
     });
     let distance = needed.fold(0.0, f64::max);
-    PartCamera { name: "framed".into(), position: bounds.centre() + back * distance, axis: -back, up: DVec3::Y, yfov: YFOV, ..PartCamera::default() }
+    PartCamera {
+        name: "framed".into(),
+        position: bounds.centre() + back * distance,
+        axis: -back,
+        up: DVec3::Y,
+        yfov: YFOV,
+        ..PartCamera::default()
+    }
 }
 
 /// The default lamp: the corners of a square, counter-clockwise seen from what it lights, and its radiance, W m⁻² sr⁻¹.

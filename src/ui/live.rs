@@ -195,8 +195,16 @@ impl Live {
         }
         let moved = current.is_some_and(|job| !Arc::ptr_eq(&job.scene, &scene));
         state.restart = false;
-        let job =
-            Job { scene, camera: 0, lens: None, size: state.size, crop: None, settings: state.settings, weighted_layers: true, raw_layers: false };
+        let job = Job {
+            scene,
+            camera: 0,
+            lens: None,
+            size: state.size,
+            crop: None,
+            settings: state.settings,
+            weighted_layers: true,
+            raw_layers: false,
+        };
         let result = match &mut self.engine {
             Some(engine) => engine.restart(job),
             None => {

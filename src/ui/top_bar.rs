@@ -126,7 +126,8 @@ fn integrator(ui: &mut Ui, state: &mut State) {
         (StrategySet::path_tracer(), Text::IntegratorPt, Text::HelpIntegratorPt),
         (StrategySet::light_tracer(), Text::IntegratorLt, Text::HelpIntegratorLt),
     ];
-    let same = |other: &StrategySet| crate::bdpt::Strategy::all(state.settings.max_edges, false).all(|x| set.contains(x) == other.contains(x));
+    let same =
+        |other: &StrategySet| crate::bdpt::Strategy::all(state.settings.max_edges, false).all(|x| set.contains(x) == other.contains(x));
     let current = presets.iter().find(|(other, ..)| same(other)).map_or(Text::IntegratorSome, |(_, name, _)| *name);
     let label = ui.label(state.say(Text::Integrator));
     let combo = ComboBox::from_id_salt("integrator").selected_text(state.say(current)).width(70.0);

@@ -25,6 +25,16 @@ pub fn wide_lens() -> Arc<Scene> {
     room.build()
 }
 
+/// The closed furnace, seen through a lens a quarter as wide as the room: paths of k edges still carry exactly L_e ρ^(k−1).
+pub fn furnace_with_lens(radiance: f32, albedo: f32) -> Arc<Scene> {
+    let mut room = Room::new("furnace with a lens");
+    let m = room.emitter(radiance, albedo, false);
+    room.cuboid([-1.0; 3], [1.0, 1.2, 1.4], true, [m; 6]);
+    room.camera([0.1, 0.2, 0.3], [1.0, 0.3, -0.4], 80.0);
+    room.lens(0.5, 0.8);
+    room.build()
+}
+
 /// The patches under lights without extent, seen through a wide lens.
 pub fn dirac_lights() -> Arc<Scene> {
     let mut room = patches("lights without extent");
@@ -32,6 +42,18 @@ pub fn dirac_lights() -> Arc<Scene> {
     room.spot([0.8, 1.5, 0.8], [-0.6, -1.3, -0.9], Vec3::splat(8.0), [15.0, 35.0]);
     room.directional([-0.3, -1.0, -0.5], Vec3::new(2.0, 1.0, 1.0));
     room.lens(0.7, 1.7);
+    room.build()
+}
+
+/// A closed white room with a point and a spot, seen through a lens a quarter as wide as the room.
+pub fn dirac_room() -> Arc<Scene> {
+    let mut room = Room::new("room with lights without extent");
+    let white = room.material(Material::lambert(Vec3::new(0.8, 0.7, 0.6)));
+    room.cuboid([-1.0; 3], [1.0, 1.2, 1.4], true, [white; 6]);
+    room.point([-0.4, 0.7, 0.5], Vec3::new(1.0, 2.0, 3.0));
+    room.spot([0.5, 0.9, -0.5], [-0.1, -1.0, 0.3], Vec3::splat(6.0), [20.0, 45.0]);
+    room.camera([0.1, 0.2, 0.3], [1.0, 0.3, -0.4], 80.0);
+    room.lens(0.5, 0.8);
     room.build()
 }
 

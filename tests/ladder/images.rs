@@ -1,7 +1,7 @@
 //! Rung 3 and 7, whole images: integrators and settings that must not change the mean, and windows that must not change a bit.
 
-use crate::scenes;
 use crate::stats::{Moments, z_between, z_limit};
+use crate::{emitters_scenes, scenes};
 use bdpt_explorer::bdpt::{Heuristic, HeuristicKind, Settings, Strategy, StrategySet};
 use bdpt_explorer::engine::{Crop, Job, Session};
 use bdpt_explorer::math::Vec3;
@@ -47,19 +47,20 @@ pub fn mean_over_seeds(scene: &Arc<Scene>, settings: Settings, seeds: u32, passe
 fn a_closed_furnace_glows_as_it_must_length_by_length() {
     // L_e ρ^(k−1) for paths of k edges alone, and their sum; level 10⁻³ over all comparisons.
     let (radiance, albedo, k) = (2.0f32, 0.6f32, 6u32);
-    let scene = scenes::furnace(radiance, albedo);
-    for roulette in [true, false] {
+    let (pinhole, lens) = (scenes::furnace(radiance, albedo), emitters_scenes::furnace_with_lens(radiance, albedo));
+    for (scene, roulette) in [(&pinhole, true), (&pinhole, false), (&lens, false)] {
+        let t_0 = u32::from(scene.cameras[0].lens.radius > 0.0);
         let mut per_length = vec![Moments::default(); k as usize + 1];
         for seed in 0..24 {
             let settings = Settings { max_edges: k, seed, roulette, ..Settings::default() };
-            let session = rendered(Job { weighted_layers: true, ..job(&scene, [24, 24], settings) }, 8);
+            let session = rendered(Job { weighted_layers: true, ..job(scene, [24, 24], settings) }, 8);
             for length in 1..=k {
-                let sum: f64 = (0..=length).map(|s| mean(&session.layer(Strategy::new(s, length + 1 - s), true).unwrap())).sum();
+                let sum: f64 = (0..=length + t_0).map(|s| mean(&session.layer(Strategy::new(s, length + 1 - s), true).unwrap())).sum();
                 per_length[length as usize].add(sum);
             }
             per_length[0].add(mean(&session.image()));
         }
-        let limit = z_limit(1e-3, 2 * (k as usize + 1));
+        let limit = z_limit(1e-3, 3 * (k as usize + 1));
         let exact = |length: u32| f64::from(radiance) * f64::from(albedo).powi(length as i32 - 1);
         for length in 1..=k {
             let z = per_length[length as usize].z(exact(length));
@@ -91,9 +92,14 @@ fn the_built_in_furnace_is_one_too() {
 #[test]
 fn integrators_roulette_and_heuristics_keep_the_mean() {
     let heuristic = |kind| Heuristic { kind, ..Heuristic::default() };
-    for (scene, all_can) in
-        [(scenes::patches(), true), (scenes::furnace(1.0, 0.6), true), (scenes::builtin("cornell"), true), (scenes::tilted(), false)]
-    {
+    for (scene, all_can) in [
+        (scenes::patches(), true),
+        (scenes::furnace(1.0, 0.6), true),
+        (scenes::builtin("cornell"), true),
+        (scenes::tilted(), false),
+        (emitters_scenes::under_the_sky(), true),
+        (emitters_scenes::dirac_room(), true),
+    ] {
         let base = Settings { max_edges: 4, ..Settings::default() };
         let mut variants = vec![
             ("roulette off", Settings { roulette: false, ..base }),

@@ -1,12 +1,15 @@
 //! The ladder: how we know that the estimator is right. Every rung has a negative control that must fail.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs, reason = "tests may panic")]
 
+mod emitters;
 mod emitters_scenes;
 mod hard;
 mod images;
+mod lens;
 mod replay;
 mod sampling;
 mod scenes;
+mod sky;
 mod stats;
 mod strategies;
 mod weights;

@@ -2,21 +2,23 @@
 """Does the program's picture of a scene agree with Mitsuba 3's?
 
     python3 -m venv venv && venv/bin/pip install mitsuba numpy
-    venv/bin/python tests/mitsuba/compare.py SCENE.glb [--size 64x64] [--max-edges 5] [--spp 64] [--seeds 32]
+    venv/bin/python tests/mitsuba/compare.py SCENE.glb [--size 64x64] [--spp 64] …
 
-Both render the scene with the same K and with independent seeds, the program bidirectionally, Mitsuba with its path
-tracer (variant scalar_rgb, box filter, no roulette).  Two pictures agree if the means over the whole picture do, of R, G,
-B and their mean, all four at a joint level of 99.9 %, and if none of their blocks of 16×16 pixels differs by more than 4.5
-standard errors.  The table says how large an error would have been found; if that is too large to mean anything, the
-answer is none.  `scene.py` says what can be compared; everything else is refused.
+Both render the scene with the same K and with independent seeds, the program bidirectionally,
+Mitsuba with its path tracer (variant scalar_rgb, box filter, no roulette).  Two pictures agree if
+the means over the whole picture do, of R, G, B and their mean, all four at a joint level of
+99.9 %, and if none of their blocks of 16×16 pixels differs by more than 4.5 standard errors.  The
+table says how large an error would have been found; if that is too large to mean anything, there
+is no verdict.  `scene.py` says what can be compared; everything else is refused.
 
-Exit status: 0 they agree, 1 they do not, 2 the input cannot be used or there are too few samples to tell.
+Exit status: 0 they agree, 1 they do not, 2 the input cannot be used or the samples are too few.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import math
 import os
 import subprocess
 import sys
@@ -27,13 +29,11 @@ from pathlib import Path
 try:
     import mitsuba as mi
     import numpy as np
-
-    mi.set_variant("scalar_rgb")
 except ImportError as missing:
     print(f"error: {missing}; install it with: pip install mitsuba numpy", file=sys.stderr)
     sys.exit(2)
 
-from agreement import BLOCK, BLOCK_LIMIT, average, compare, judge
+from agreement import BLOCK, BLOCK_LIMIT, MEAN_LIMIT, average, compare, judge
 from gltf import Unusable
 from scene import Scene, load, to_mitsuba
 
@@ -48,7 +48,7 @@ def main() -> int:
     except Unusable as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
-    print(json.dumps(report, indent=1) if args.json else table(report))
+    print(json.dumps(plain(report), indent=1) if args.json else table(report))
     return {"AGREE": 0, "FAILED": 1}.get(report["verdict"], 2)
 
 
@@ -189,7 +189,7 @@ def render_ours(args: argparse.Namespace) -> np.ndarray:
                 )
             except OSError as error:
                 raise Unusable(
-                    f"{args.program}: cannot be run ({error.strerror}); build it or name it with --program"
+                    f"{args.program}: cannot be run ({error.strerror}); build it, or use --program"
                 ) from error
             if done.returncode != 0:
                 raise Unusable(
@@ -200,6 +200,15 @@ def render_ours(args: argparse.Namespace) -> np.ndarray:
             )
             pictures.append(np.array(bitmap, float))
     return np.stack(pictures)
+
+
+def plain(value):
+    """JSON knows no infinity and no NaN: they become null."""
+    if isinstance(value, dict):
+        return {key: plain(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def save(folder: Path, ours: np.ndarray, theirs: np.ndarray) -> None:
@@ -216,36 +225,32 @@ def save(folder: Path, ours: np.ndarray, theirs: np.ndarray) -> None:
 
 def table(report: dict) -> str:
     """The report for a person."""
-    (width, height), (spp, mitsuba_spp), (ours, theirs) = (
-        report["size"],
-        report["spp"],
-        report["seconds"],
+    size_text = "x".join(map(str, report["size"]))
+    scale = f", ours × {report['scale']}" if report["scale"] != 1 else ""
+    (spp, mitsuba_spp), (ours, theirs) = report["spp"], report["seconds"]
+    head = (
+        f"{'ours':>11}{'Mitsuba':>11}{'difference':>12}{'sigma':>8}{'limit':>7}{'would see':>11}"
     )
-    scale = "" if report["scale"] == 1 else f", our picture multiplied by {report['scale']}"
     lines = [
-        f"{report['scene']}: {width}x{height}, K = {report['max_edges']}, {report['seeds']} seeds{scale}",
+        f"{report['scene']}: {size_text}, K = {report['max_edges']}, M = {report['seeds']}{scale}",
         f"ours {spp} spp, {ours} s · Mitsuba {report['mitsuba']} {mitsuba_spp} spp, {theirs} s",
         "",
-        f"{'':24}{'ours':>11}{'Mitsuba':>11}{'difference':>12}{'sigma':>8}{'limit':>7}{'would see':>11}",
+        f"{'':24}{head}",
     ]
-    for part, limit in zip(("mean", "block"), report["limits"]):
-        for row in report["rows"]:
-            x = row[part]
-            name = (
-                f"mean of {row['quantity']}"
-                if part == "mean"
-                else f"block {x['pixel'][0]},{x['pixel'][1]} {row['quantity']}"
-            )
-            figures = f"{x['ours']:11.5g}{x['mitsuba']:11.5g}{x['relative']:+12.2%}{x['sigma']:+8.2f}{limit:7.2f}{x['seen']:11.2%}"
-            lines.append(f"{name:24}{figures}")
-        lines.append("")
-    lines.append(
-        "block: the worst of all, by its left upper pixel, and what half of the blocks would see"
-    )
-    lines.append(
-        f"{report['verdict']}{': ' if report['reasons'] else ''}{'; '.join(report['reasons'])}"
-    )
-    return "\n".join(lines)
+    for row in report["rows"]:
+        lines.append(f"{'whole picture, ' + row['quantity']:24}" + line(row["mean"], MEAN_LIMIT))
+    for row in report["rows"]:
+        x, y = row["block"]["pixel"]
+        name = f"block at {x},{y}, {row['quantity']}"
+        lines.append(f"{name:24}" + line(row["block"], BLOCK_LIMIT))
+    lines += ["(the worst block of all, and what half of the blocks would see)", ""]
+    return "\n".join(lines) + "; ".join([report["verdict"], *report["reasons"]])
+
+
+def line(x: dict, limit: float) -> str:
+    """The figures of one row."""
+    values = f"{x['ours']:11.5g}{x['mitsuba']:11.5g}{x['relative']:+12.2%}"
+    return f"{values}{x['sigma']:+8.2f}{limit:7.2f}{x['seen']:11.2%}"
 
 
 if __name__ == "__main__":

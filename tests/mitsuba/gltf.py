@@ -58,7 +58,7 @@ class Gltf:
         return scenes[self.root.get("scene", 0)]
 
     def placed(self) -> list[tuple[dict, np.ndarray]]:
-        """All nodes of the default scene in file order, depth first, each with its world-from-node matrix."""
+        """The default scene's nodes, in file order and depth first, with their world-from-node."""
         placed = []
         stack = [(index, np.eye(4)) for index in reversed(self.scene().get("nodes", []))]
         while stack:

@@ -1,16 +1,18 @@
 """Our glTF scenes as Mitsuba 3 scenes.
 
-| here | Mitsuba |
-|---|---|
-| Lambert: metallic 0, KHR_materials_specular factor 0 | `twosided` `diffuse` |
-| mirror: metallic 1, roughness < 0.03, F₀ = base colour = 1 | `twosided` `conductor`, material `none` |
-| glass: transmission 1, roughness < 0.03 | `dielectric` if the mesh is closed, else `thindielectric`; outside index 1, not Mitsuba's air |
-| emission, W m⁻² sr⁻¹, front face only | `area`; normals of the faces, because Mitsuba emits to the side of the shading normal |
-| KHR_lights_punctual point, directional | `point`, `directional` |
-| spot with a hard edge (inner angle ≈ outer angle) | `spot` |
-| camera; extras lensRadius, focusDistance | `perspective`; `thinlens` (both measure the focus distance along the axis) |
-| scene extras environment, environmentRotation | `constant`, or `envmap` on a finer lattice, see `environment` |
-| K, edges of a path | `max_depth` |
+here                                                Mitsuba
+--------------------------------------------------  -----------------------------------------
+Lambert: metallic 0, KHR_materials_specular 0       `twosided` `diffuse`
+mirror: metallic 1, roughness < 0.03, F₀ = 1        `twosided` `conductor`, material `none`
+glass: transmission 1, roughness < 0.03             `dielectric` (a closed mesh or a thickness)
+                                                    or `thindielectric`, in vacuum
+emission, W m⁻² sr⁻¹, from the front face           `area`, with the normals of the faces
+KHR_lights_punctual: point, directional             `point`, `directional`
+KHR_lights_punctual: spot, inner ≈ outer angle      `spot`
+camera                                              `perspective`
+camera with extras lensRadius, focusDistance        `thinlens`
+scene extras environment, environmentRotation       `constant`, `envmap`
+K, the most edges of a path                         `max_depth`
 
 What is not in the table is refused: `Unusable` names it.
 """
@@ -25,8 +27,10 @@ import mitsuba as mi
 import numpy as np
 
 from gltf import Gltf, Unusable, normalized
+from materials import bsdf, emitted, rgb
 
-SMOOTH = 0.03
+mi.set_variant("scalar_rgb")
+
 KNOWN_EXTENSIONS = {
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
@@ -35,7 +39,7 @@ KNOWN_EXTENSIONS = {
     "KHR_materials_transmission",
     "KHR_materials_volume",
 }
-# A spot whose edge is wider than this, relative to the angle, is not hard: Mitsuba's edge has another shape.
+# A spot's edge is hard if it is narrower than this share of the angle.
 HARD_EDGE = 1e-3
 
 
@@ -80,11 +84,13 @@ def _load(gltf: Gltf) -> Scene:
         if "mesh" in node:
             for primitive in gltf.list("meshes")[node["mesh"]]["primitives"]:
                 scene.meshes.append(mesh(gltf, primitive, world, scene.notes))
+    scene.meshes = [item for item in scene.meshes if len(item.corners)]
     if not scene.meshes:
         raise Unusable(f"{gltf.path}: the scene has no triangles")
     corners = np.concatenate([m.corners.reshape(-1, 3) for m in scene.meshes])
     low, high = corners.min(axis=0), corners.max(axis=0)
-    # Mitsuba computes in f32 and offsets rays by a multiple of the largest coordinate: it gets the scene around its origin.
+    # Mitsuba computes in f32 and offsets rays by a share of their largest coordinate, so it gets
+    # the scene around its origin.
     scene.origin, scene.extent = 0.5 * (low + high), float(np.linalg.norm(high - low))
     for node, world in placed:
         index = node.get("extensions", {}).get("KHR_lights_punctual", {}).get("light")
@@ -92,26 +98,20 @@ def _load(gltf: Gltf) -> Scene:
             light = gltf.root["extensions"]["KHR_lights_punctual"]["lights"][index]
             scene.emitters.append(punctual(light, world, scene, f"{gltf.path}: light {index}"))
         if "camera" in node and not scene.camera:
-            scene.camera = camera(
-                gltf.list("cameras")[node["camera"]],
-                world,
-                scene,
-                f"{gltf.path}: camera {node['camera']}",
-            )
+            name = f"{gltf.path}: camera {node['camera']}"
+            scene.camera = camera(gltf.list("cameras")[node["camera"]], world, scene, name)
     scene.emitters += environment(gltf)
     if not scene.camera:
         raise Unusable(
-            f"{gltf.path}: there is no perspective camera, and where the program would put one is its own affair"
+            f"{gltf.path}: no perspective camera (the one the program adds is its own affair)"
         )
     if not scene.emitters and not any(any(m.emission) for m in scene.meshes):
-        raise Unusable(
-            f"{gltf.path}: nothing emits, and the lamp the program would add is its own affair"
-        )
+        raise Unusable(f"{gltf.path}: nothing emits (the program's own lamp is its own affair)")
     return scene
 
 
 def to_mitsuba(scene: Scene, folder: Path, size: tuple[int, int], max_edges: int) -> dict:
-    """The scene as a dictionary for `mi.load_dict`; meshes are written into `folder`, which must live until then."""
+    """The scene for `mi.load_dict`; meshes are written into `folder`, to last until then."""
     film = {
         "type": "hdrfilm",
         "width": size[0],
@@ -142,58 +142,57 @@ def to_mitsuba(scene: Scene, folder: Path, size: tuple[int, int], max_edges: int
     return result
 
 
-def rgb(value) -> dict:
-    """A colour, or a radiometric quantity per channel."""
-    return {"type": "rgb", "value": [float(x) for x in value]}
-
-
 def mesh(gltf: Gltf, primitive: dict, world: np.ndarray, notes: list[str]) -> Mesh:
-    """A primitive in world coordinates; a mirroring transform turns its triangles around, as glTF demands."""
-    if primitive.get("mode", 4) != 4:
-        raise Unusable(
-            f"{gltf.path}: only lists of triangles can be mapped, no strips, fans, lines or points"
-        )
-    attributes = primitive["attributes"]
-    positions = gltf.read(attributes["POSITION"]).astype(float)
-    indices = (
-        gltf.read(primitive["indices"])[:, 0]
-        if "indices" in primitive
-        else np.arange(len(positions))
-    )
-    triangles = indices[: len(indices) // 3 * 3].astype(np.int64).reshape(-1, 3)
-    matrix, offset = world[:3, :3], world[:3, 3]
-    placed = triangles[:, [0, 2, 1]] if np.linalg.det(matrix) < 0 else triangles
-    corners = (positions @ matrix.T + offset)[placed]
-    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    kept = np.linalg.norm(area, axis=1) > 0
-    corners, face = corners[kept], normalized(area[kept])
+    """A primitive in world coordinates with its material."""
     index = primitive.get("material")
     material = gltf.list("materials")[index] if index is not None else {}
     name = f"{gltf.path}: material {material.get('name', index)!r}"
+    positions, triangles = triangle_list(gltf, primitive)
+    corners, normals = place(gltf, primitive, world, positions, triangles)
     emission = emitted(material, name)
-    normals = None
-    if "NORMAL" in attributes:
-        cofactor = np.stack(
-            [np.cross(matrix[:, (i + 1) % 3], matrix[:, (i + 2) % 3]) for i in range(3)], axis=1
-        )
-        normals = shading_normals(
-            (gltf.read(attributes["NORMAL"]).astype(float) @ cofactor.T)[placed[kept]], face
-        )
     if normals is not None:
-        notes.append(
-            f"{name}: smooth normals; Mitsuba does not check the side of the face, so silhouettes may differ a little"
-        )
+        notes.append(f"{name}: smooth normals; silhouettes may differ a little, see `place`")
         if any(emission):
-            raise Unusable(
-                f"{name}: an emitter with smooth normals (Mitsuba emits to the side of those)"
-            )
-    return Mesh(
-        corners, normals, bsdf(material, name, lambda: is_closed(positions, triangles)), emission
-    )
+            raise Unusable(f"{name}: an emitter with smooth normals (Mitsuba emits about those)")
+    scattering = bsdf(material, name, lambda: is_closed(positions, triangles))
+    return Mesh(corners, normals, scattering, emission)
+
+
+def triangle_list(gltf: Gltf, primitive: dict) -> tuple[np.ndarray, np.ndarray]:
+    """A primitive's positions, float64, and the three indices of each triangle."""
+    if primitive.get("mode", 4) != 4:
+        raise Unusable(f"{gltf.path}: a primitive is no list of triangles")
+    positions = gltf.read(primitive["attributes"]["POSITION"]).astype(float)
+    indices = np.arange(len(positions))
+    if "indices" in primitive:
+        indices = gltf.read(primitive["indices"])[:, 0].astype(np.int64)
+    return positions, indices[: len(indices) // 3 * 3].reshape(-1, 3)
+
+
+def place(gltf: Gltf, primitive: dict, world: np.ndarray, positions, triangles):
+    """The triangles' corners in world coordinates, and the normals there if they are not flat.
+
+    A mirroring transform turns triangles around, as glTF demands.  Where a smooth normal and the
+    face disagree on the side of a direction, the program scatters nothing; Mitsuba asks the normal
+    alone.
+    """
+    matrix, offset = world[:3, :3], world[:3, 3]
+    if np.linalg.det(matrix) < 0:
+        triangles = triangles[:, [0, 2, 1]]
+    corners = (positions @ matrix.T + offset)[triangles]
+    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    kept = np.linalg.norm(area, axis=1) > 0
+    if "NORMAL" not in primitive["attributes"]:
+        return corners[kept], None
+    # det · M⁻ᵀ, which exists for flat transforms too; its sign does not matter here.
+    a, b, c = matrix.T
+    cofactor = np.column_stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)])
+    normals = gltf.read(primitive["attributes"]["NORMAL"]).astype(float) @ cofactor.T
+    return corners[kept], shading_normals(normals[triangles[kept]], normalized(area[kept]))
 
 
 def shading_normals(normals: np.ndarray, face: np.ndarray) -> np.ndarray | None:
-    """The corners' normals on the side of the face, as the program takes them; None if they are those of the faces."""
+    """The corners' normals, turned to the side of the face; None if they are the faces' own."""
     length = np.linalg.norm(normals, axis=-1, keepdims=True)
     face = np.broadcast_to(face[:, None], normals.shape)
     normals = np.where(length > 0, normals / np.where(length > 0, length, 1), face)
@@ -203,7 +202,7 @@ def shading_normals(normals: np.ndarray, face: np.ndarray) -> np.ndarray | None:
 
 
 def is_closed(positions: np.ndarray, triangles: np.ndarray) -> bool:
-    """Is every edge shared by two triangles that run along it in opposite directions, once equal positions are one?"""
+    """Is every edge shared by two triangles that run along it in opposite directions?"""
     weld = np.unique(positions + 0.0, axis=0, return_inverse=True)[1].reshape(-1)
     edges = [
         (t[i], t[(i + 1) % 3])
@@ -235,63 +234,8 @@ def ply(item: Mesh, origin: np.ndarray) -> bytes:
     )
 
 
-def extension(item: dict, name: str) -> dict:
-    """A material's extension, empty if it is not there."""
-    return item.get("extensions", {}).get(f"KHR_materials_{name}", {})
-
-
-def emitted(material: dict, name: str) -> list[float]:
-    """L_e, W m⁻² sr⁻¹."""
-    strength = extension(material, "emissive_strength").get("emissiveStrength", 1.0)
-    emission = [max(0.0, x * strength) for x in material.get("emissiveFactor", [0, 0, 0])]
-    if any(emission) and material.get("doubleSided"):
-        raise Unusable(f"{name}: a double-sided emitter (Mitsuba's emit to one side)")
-    return emission
-
-
-def bsdf(material: dict, name: str, closed) -> dict:
-    """How a material scatters; `closed` tells whether the mesh encloses a volume (asked of glass only)."""
-    pbr, specular = material.get("pbrMetallicRoughness", {}), extension(material, "specular")
-    if any(
-        key.endswith("Texture")
-        for part in [material, pbr, *material.get("extensions", {}).values()]
-        for key in part
-    ):
-        raise Unusable(f"{name}: textures")
-    if material.get("alphaMode", "OPAQUE") != "OPAQUE":
-        raise Unusable(f"{name}: transparency by alpha")
-    color = [min(1.0, max(0.0, x)) for x in pbr.get("baseColorFactor", [1, 1, 1, 1])[:3]]
-    metallic, roughness = pbr.get("metallicFactor", 1.0), pbr.get("roughnessFactor", 1.0)
-    transmission = extension(material, "transmission").get("transmissionFactor", 0.0)
-    if metallic == 1 and roughness < SMOOTH:
-        if min(color) < 1:
-            raise Unusable(
-                f"{name}: a mirror of F0 {color}: Mitsuba has no Schlick term, so only F0 = 1 can be compared"
-            )
-        return two_sided({"type": "conductor", "material": "none"})
-    if metallic == 0 and transmission == 1 and roughness < SMOOTH and not specular:
-        volume = extension(material, "volume")
-        if "attenuationColor" in volume and min(volume["attenuationColor"]) < 1:
-            raise Unusable(f"{name}: absorption inside glass")
-        solid = volume.get("thicknessFactor", 0) > 0 or closed()
-        kind, ior = "dielectric" if solid else "thindielectric", extension(material, "ior").get(
-            "ior", 1.5
-        )
-        return {"type": kind, "int_ior": ior, "ext_ior": 1.0, "specular_transmittance": rgb(color)}
-    if metallic == 0 and transmission == 0 and specular.get("specularFactor", 1.0) == 0:
-        return two_sided({"type": "diffuse", "reflectance": rgb(color)})
-    raise Unusable(
-        f"{name}: neither Lambert (metallic 0, specularFactor 0) nor a mirror of F0 = 1 nor clear glass"
-    )
-
-
-def two_sided(scattering: dict) -> dict:
-    """Mitsuba's surfaces reflect on their front only, ours on both sides."""
-    return {"type": "twosided", "nested": scattering}
-
-
 def punctual(light: dict, world: np.ndarray, scene: Scene, name: str) -> dict:
-    """A light of KHR_lights_punctual: W sr⁻¹ or, directional, W m⁻²; it shines along the node's −Z."""
+    """A light of KHR_lights_punctual, W sr⁻¹ or W m⁻²; it shines along the node's −Z."""
     power = rgb(light.get("intensity", 1.0) * np.array(light.get("color", [1, 1, 1]), float))
     position, direction = world[:3, 3] - scene.origin, -normalized(world[:3, 2])
     if "range" in light:
@@ -310,9 +254,10 @@ def punctual(light: dict, world: np.ndarray, scene: Scene, name: str) -> dict:
     )
     if not 0 < outer <= math.pi / 2 or outer - inner > HARD_EDGE * outer:
         raise Unusable(
-            f"{name}: a spot with a soft edge (only innerConeAngle ≈ outerConeAngle can be compared)"
+            f"{name}: a spot with a soft edge (only innerConeAngle ≈ outerConeAngle is mapped)"
         )
-    # Across the edge glTF's factor is a square (mean 1/3), Mitsuba's is linear (mean 1/2): 2/3 of the width carries the same.
+    # Across the edge glTF's factor is a square (mean 1/3), Mitsuba's is linear (mean 1/2): two
+    # thirds of the width carry the same.
     edge = max(outer - inner, 1e-6 * outer)
     return {
         "type": "spot",
@@ -348,7 +293,7 @@ def camera(json: dict, world: np.ndarray, scene: Scene, name: str) -> dict:
 
 
 def look(position: np.ndarray, axis: np.ndarray, up: np.ndarray):
-    """Local +Z along `axis`, local +Y towards `up`; local +X then is the picture's left, as Mitsuba has it."""
+    """Local +Z along `axis`, +Y towards `up`; +X then is the picture's left, as in Mitsuba."""
     axis = normalized(axis)
     up = normalized(up - axis * np.dot(up, axis))
     matrix = np.eye(4)
@@ -357,11 +302,12 @@ def look(position: np.ndarray, axis: np.ndarray, up: np.ndarray):
 
 
 def environment(gltf: Gltf) -> list[dict]:
-    """The scene's surroundings: constant, or an equirectangular map whose centre is −Z and whose top is +Y.
+    """The surroundings: constant, or an equirectangular map with −Z at its centre, +Y at its top.
 
-    Our texel centres lie at ((i + ½)/W, (j + ½)/H), bilinear between them, u wraps, v clamps.  Mitsuba's rows lie at
-    v = 0 … 1, its columns at u = (i + s)/W with s = ½ or, in older versions, 0.  The map is handed over on a lattice that
-    contains all our knots, so both are the same function.  Our u = ½ is Mitsuba's u = 0: half a turn.
+    Our texel centres lie at ((i + ½)/W, (j + ½)/H), bilinear between them, u wraps, v clamps.
+    Mitsuba's first and last rows lie at v = 0 and 1, its columns at u = (i + s)/W with s = ½ or,
+    in older versions, 0.  The map is handed over on a lattice that contains all our knots, so both
+    are the same function.  Our u = ½ is Mitsuba's u = 0: half a turn.
     """
     extras = gltf.scene().get("extras") or {}
     value = extras.get("environment")
@@ -385,7 +331,7 @@ def environment(gltf: Gltf) -> list[dict]:
 
 
 def interpolated(texels: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Our interpolant at the lattice of `x` and `y`, in texels from the centre of the first one."""
+    """Our interpolant on the lattice of `x` and `y`, in texels from the first one's centre."""
     height, width = texels.shape[:2]
     left, top = np.floor(x).astype(int), np.floor(y).astype(int)
     fx, fy = (x - left)[None, :, None], (y - top)[:, None, None]
@@ -396,7 +342,7 @@ def interpolated(texels: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray
 
 
 def column_shift() -> float:
-    """Where Mitsuba puts the centre of an environment map's first column, in columns: ½, or 0 in older versions."""
+    """Where Mitsuba puts the centre of a map's first column: at ½, or at 0 in older versions."""
     texels = np.zeros((3, 4, 3), np.float32)
     texels[:, 0] = 1
     emitter = mi.load_dict({"type": "envmap", "bitmap": mi.Bitmap(texels)})

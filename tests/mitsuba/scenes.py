@@ -3,9 +3,10 @@
 
     python3 tests/mitsuba/scenes.py FOLDER
 
-Each is a stage (floor, back wall, one red and one blue side wall, open to the front and above) with a few blocks, about
-4 m wide.  Between them they use indices of 8, 16 and 32 bits, nested nodes, mirrored and uneven scales, a matrix, and
-node translations far from zero, so that a slip in reading glTF shows too.
+Each is a stage (floor, back wall, one red and one blue side wall, open to the front and above)
+with a few blocks, about 4 m wide.  Between them they use indices of 8, 16 and 32 bits, nested
+nodes, mirrored and uneven scales, a matrix, and node translations far from zero, so that a slip
+in reading glTF shows too.
 """
 
 from __future__ import annotations
@@ -209,7 +210,7 @@ EYE, LOOK_AT, YFOV = [0.4, 1.6, 5.2], [0.1, 0.8, 0], 0.68
 
 
 def area(folder: Path) -> None:
-    """A lamp overhead that must shine downwards only, in a mirrored node; a small glowing block."""
+    """A lamp overhead that shines downwards only, in a mirrored node; a small glowing block."""
     glb, _ = stage()
     lamp = glb.mesh(
         [[[-0.5, 0, 0.4], [0.5, 0, 0.4], [0.5, 0, -0.4], [-0.5, 0, -0.4]]],
@@ -224,7 +225,7 @@ def area(folder: Path) -> None:
 
 
 def lens(folder: Path) -> None:
-    """A wide lens, focused before the stage: what is behind is far out of focus, the lamp that faces it too."""
+    """A wide lens, focused before the stage: blocks, walls and the lamp that faces it blur."""
     glb, _ = stage()
     lamp = glb.mesh(
         [[[-0.3, 0, 0], [0.3, 0, 0], [0.3, 0.5, 0], [-0.3, 0.5, 0]]],
@@ -278,7 +279,7 @@ def constant(folder: Path) -> None:
 
 
 def environment(folder: Path) -> None:
-    """A map with a broad bright lobe at the upper left behind the camera and another colour on each side, turned by 40°."""
+    """A map, turned by 40°: a broad bright lobe behind the camera, another colour on each side."""
     glb, _ = stage(1.3)
     glb.extras.update(environment="environment.hdr", environmentRotation=40.0)
     glb.camera(EYE, LOOK_AT, YFOV)

@@ -1,0 +1,195 @@
+//! Rungs 3 and 7: the thin lens. What is out of focus, what only a lens can see, and what is left when it closes.
+
+use crate::images::{job, mean, rendered};
+use crate::scenes::{self, Room};
+use crate::stats::{Moments, z_between, z_limit};
+use bdpt_explorer::bdpt::{Settings, Strategy, StrategySet};
+use bdpt_explorer::engine::Job;
+use bdpt_explorer::math::Vec3;
+use bdpt_explorer::scene::{Lens, Material, Scene};
+use std::sync::Arc;
+
+const SIZE: u32 = 64;
+/// Blocks along a side.
+const SIDE: usize = SIZE as usize / 4;
+
+fn alone(s: u32, t: u32) -> StrategySet {
+    [Strategy::new(s, t)].into_iter().collect()
+}
+
+/// A small lamp that faces a lens from 2 m away; the lens is focused at 1 m.
+fn defocused_lamp() -> Arc<Scene> {
+    let mut room = Room::new("defocused lamp");
+    let lamp = room.emitter(50.0, 0.0, false);
+    room.quad([0.25, 0.1, 0.0], [0.04, 0.0, 0.0], [0.0, 0.04, 0.0], lamp);
+    room.camera([0.0, 0.0, 2.0], [0.0, 0.0, 0.0], 50.0);
+    room.lens(0.2, 1.0);
+    room.build()
+}
+
+/// Means over independent seeds of each 4² block of paths of one edge by these strategies.
+fn blocks(scene: &Arc<Scene>, strategies: StrategySet, first_seed: u32, passes: u32) -> Vec<Moments> {
+    let mut blocks = vec![Moments::default(); SIDE * SIDE];
+    for seed in first_seed..first_seed + 32 {
+        let settings = Settings { max_edges: 1, seed, strategies, ..Settings::default() };
+        let image = rendered(job(scene, [SIZE, SIZE], settings), passes).image();
+        blocks.iter_mut().enumerate().for_each(|(b, block)| block.add(block_mean(&image, b)));
+    }
+    blocks
+}
+
+/// Mean of a 4² block of an image.
+fn block_mean(image: &[Vec3], block: usize) -> f64 {
+    let pixel = |i: usize| ((block / SIDE) * 4 + i / 4) * SIZE as usize + (block % SIDE) * 4 + i % 4;
+    (0..16).map(|i| f64::from(image[pixel(i)].x)).sum::<f64>() / 16.0
+}
+
+/// Where on the film, in pixels from its middle, a point `at` (m) at depth `z` seen from a lens point `l` lands, for focus `d`.
+fn lands(at: [f64; 2], l: [f64; 2], z: f64, d: f64) -> [f64; 2] {
+    let scale = 0.5 * f64::from(SIZE) / (25.0f64.to_radians()).tan();
+    [0, 1].map(|c| ((at[c] - l[c]) / z + l[c] / d) * scale)
+}
+
+/// t = 0 alone draws the disk of confusion: its place, its radius r|1/d − 1/z|, its evenness and its energy, block by block
+/// against the eye path that runs into the lamp (level 10⁻³), and its mean against ∫ over lamp and lens.
+#[test]
+fn a_defocused_lamp_makes_its_disk_by_light_that_hits_the_lens_alone() {
+    let scene = defocused_lamp();
+    let (by_light, by_eye) = (blocks(&scene, alone(2, 0), 0, 96), blocks(&scene, alone(0, 2), 500, 96));
+    let lit: Vec<usize> = (0..by_eye.len()).filter(|&b| by_eye[b].mean() > 0.0).collect();
+    assert!((12..64).contains(&lit.len()), "{} blocks are lit", lit.len());
+    let limit = z_limit(1e-3, lit.len());
+    for &b in &lit {
+        let z = z_between(&by_light[b], &by_eye[b]);
+        assert!(z.abs() < limit, "block {b}: {} by light, {} by eye, z = {z}", by_light[b].mean(), by_eye[b].mean());
+    }
+    assert!((0..by_eye.len()).filter(|b| !lit.contains(b)).all(|b| by_light[b].mean() == 0.0), "light outside the disk");
+    // Negative control: focused elsewhere, the disk is another one.
+    let mut other = Job { lens: Some(Lens { radius: 0.2, focus_distance: 1.5 }), ..job(&scene, [SIZE, SIZE], Settings::default()) };
+    other.settings = Settings { max_edges: 1, strategies: alone(2, 0), ..Settings::default() };
+    let image = rendered(other, 96).image();
+    assert!(lit.iter().any(|&b| by_eye[b].z(block_mean(&image, b)).abs() > 3.0 * limit), "another focus would pass");
+
+    // L/(A_film A_lens) ∫∫ cosθ cosθ′/(r² cos⁴θ) dA dA′ = L/(A_film A_lens z²) · A · A_lens where lamp and lens are parallel.
+    let film = (2.0 * 25.0f64.to_radians().tan()).powi(2);
+    let exact = 50.0 * 0.04 * 0.04 / 4.0 / film;
+    let mut total = Moments::default();
+    for seed in 0..24 {
+        let settings = Settings { max_edges: 1, seed, strategies: alone(2, 0), ..Settings::default() };
+        total.add(mean(&rendered(job(&scene, [SIZE, SIZE], settings), 64).image()));
+    }
+    let z = total.z(exact);
+    println!("total {:.6} instead of {exact:.6}, z = {z:.2}", total.mean());
+    assert!(z.abs() < z_limit(1e-3, 1), "{} instead of {exact}", total.mean());
+    assert!(total.z(1.05 * exact).abs() > z_limit(1e-3, 1), "an error of 5 % would pass");
+
+    // Not one splat outside the disk, and some near its rim in all directions.
+    let settings = Settings { max_edges: 1, strategies: alone(2, 0), ..Settings::default() };
+    let image = rendered(job(&scene, [SIZE, SIZE], settings), 256).image();
+    let centre = lands([0.27, 0.12], [0.0; 2], 2.0, 1.0);
+    let radius = lands([0.27, 0.12], [0.2, 0.0], 2.0, 1.0)[0] - centre[0];
+    let lamp = lands([0.02, 0.02], [0.0; 2], 2.0, 1.0)[0];
+    let mut reached = [0.0f64; 8];
+    for (i, _) in image.iter().enumerate().filter(|(_, c)| c.x > 0.0) {
+        let half = f64::from(SIZE) / 2.0;
+        let (x, y) = ((i as u32 % SIZE) as f64 + 0.5 - half - centre[0], half - (i as u32 / SIZE) as f64 - 0.5 - centre[1]);
+        let r = x.hypot(y);
+        assert!(r < radius.abs() + 1.5 * lamp + 0.8, "pixel {i} is {r} pixels from the middle of a disk of {radius}");
+        let octant = ((y.atan2(x) / std::f64::consts::TAU + 1.0) * 8.0) as usize % 8;
+        reached[octant] = reached[octant].max(r);
+    }
+    assert!(reached.iter().all(|r| *r > 0.85 * radius.abs()), "{reached:?} of {radius}");
+}
+
+/// A point light, a mirror, and a lens: only light that hits the lens can show the reflection; its energy is that of the
+/// mirrored point.
+#[test]
+fn a_point_light_in_a_mirror_is_seen_by_light_that_hits_the_lens_alone() {
+    let scene = |lens: f64| {
+        let mut room = Room::new("point in a mirror");
+        let mirror = room.material(Material::mirror(Vec3::ONE));
+        room.quad([-2.0, -2.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], mirror);
+        room.point([0.1, 0.0, 1.2], Vec3::splat(3.0));
+        room.camera([0.0, 0.0, 1.0], [0.0, 0.0, 0.0], 60.0);
+        room.lens(lens, 0.7);
+        room.build()
+    };
+    let (wide, pinhole) = (scene(0.3), scene(0.0));
+    let settings = Settings { max_edges: 3, ..Settings::default() };
+    assert_eq!(job(&wide, [8, 8], settings).existence().lost_paths(&settings), Vec::<String>::new());
+    assert_eq!(job(&pinhole, [8, 8], settings).existence().lost_paths(&settings), ["L₀S⁺E"]);
+    assert!(rendered(job(&pinhole, [16, 16], settings), 16).image().iter().all(|c| *c == Vec3::ZERO));
+
+    // I/A_film · mean over the lens of 1/(D² cos³θ), D the way to the mirrored point (0.1, 0, −1.2).
+    let film = (2.0 * 30.0f64.to_radians().tan()).powi(2);
+    let (mut sum, mut count) = (0.0, 0.0);
+    for i in 0..800 {
+        for j in 0..800 {
+            let l = [i, j].map(|c| (f64::from(c) + 0.5) / 400.0 * 0.3 - 0.3);
+            if l[0].hypot(l[1]) < 0.3 {
+                let offset = [0.1 - l[0], -l[1], -2.2];
+                let distance = offset.iter().map(|c| c * c).sum::<f64>().sqrt();
+                sum += 1.0 / (distance.powi(2) * (2.2 / distance).powi(3));
+                count += 1.0;
+            }
+        }
+    }
+    let exact = 3.0 / film * sum / count;
+    let mut found = Moments::default();
+    for seed in 0..24 {
+        let job = Job { weighted_layers: true, raw_layers: true, ..job(&wide, [24, 24], Settings { seed, ..settings }) };
+        let session = rendered(job, 300);
+        found.add(mean(&session.image()));
+        let only = Strategy::new(3, 0);
+        assert_eq!(session.layer(only, true), session.layer(only, false), "nobody else can: its weight is exactly 1");
+    }
+    let z = found.z(exact);
+    println!("mirrored point: {:.6} instead of {exact:.6}, z = {z:.2}", found.mean());
+    assert!(z.abs() < z_limit(1e-3, 1), "{} instead of {exact}", found.mean());
+    assert!(found.z(1.1 * exact).abs() > z_limit(1e-3, 1), "an error of 10 % would pass");
+}
+
+/// aperture → 0: with the same random numbers the image becomes the pinhole's, and t = 0 vanishes from it.
+#[test]
+fn a_closing_aperture_becomes_the_pinhole() {
+    for name in ["cornell", "cornell-spheres"] {
+        let scene = scenes::builtin(name);
+        let focus_distance = scene.cameras[0].lens.focus_distance;
+        let image = |radius: f32| {
+            let lens = Some(Lens { radius, focus_distance });
+            let settings = Settings { max_edges: 4, ..Settings::default() };
+            let session = rendered(Job { lens, weighted_layers: true, ..job(&scene, [32, 32], settings) }, 8);
+            let on_lens: f64 = (1..=4).filter_map(|k| session.layer(Strategy::new(k + 1, 0), true)).map(|layer| mean(&layer)).sum();
+            (session.image(), on_lens)
+        };
+        let (pinhole, none) = image(0.0);
+        assert_eq!(none, 0.0);
+        let difference = |radius: f32| {
+            let (lens, on_lens) = image(radius);
+            // Now and then a splat falls on the other side of a pixel's border: most pixels must be the same, not all.
+            let mut off: Vec<f64> = lens.iter().zip(&pinhole).map(|(a, b)| f64::from((*a - *b).abs().max_element())).collect();
+            off.sort_by(f64::total_cmp);
+            (off[off.len() * 98 / 100] / mean(&pinhole), on_lens / mean(&pinhole))
+        };
+        let radii = [3e-1, 1e-2, 1e-4, 1e-6];
+        let found = radii.map(difference);
+        println!("{name}: difference (98 of 100 pixels are nearer) and share of t = 0 at radii {radii:?} m: {found:?}");
+        // A wide lens is another picture: the negative control.
+        assert!(found[0].0 > 0.1 && found[0].1 > 1e-4, "{name}: {found:?}");
+        assert!(found[3].0 < 1e-3 && found[3].1 < 1e-9, "{name}: {found:?}");
+        assert!(found.windows(2).all(|w| w[1].0 < w[0].0), "{name}: {found:?}");
+    }
+}
+
+/// What lies behind the lens, or comes to it from behind, makes no contribution; the lens casts no shadow.
+#[test]
+fn a_lens_is_hit_from_the_front_alone_and_blocks_nothing() {
+    let mut room = Room::new("lamp behind the lens");
+    let lamp = room.emitter(5.0, 0.0, true);
+    room.quad([-0.5, -0.5, 1.5], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], lamp);
+    room.camera([0.0, 0.0, 1.0], [0.0, 0.0, 0.0], 60.0);
+    room.lens(0.6, 1.0);
+    let scene = room.build();
+    let settings = Settings { max_edges: 3, ..Settings::default() };
+    assert!(rendered(job(&scene, [16, 16], settings), 32).image().iter().all(|c| *c == Vec3::ZERO));
+}
