@@ -138,6 +138,7 @@ impl Sample {
         self.crossings.iter().find(|crossing| crossing.s == s)
     }
 
+    #[inline(never)]
     fn light_hits_lens(&mut self, context: &Context, s: usize) -> Result<Contribution, Reason> {
         if self.light.vertices.len() + 1 < s {
             return Err(Reason::LightSubpathTooShort);
@@ -148,7 +149,7 @@ impl Sample {
         }
         let raster = context.view.project(lens.w_prev, lens.position).ok_or(Reason::BehindTheCamera)?;
         let pixel = context.view.pixel(raster).ok_or(Reason::OutsideTheFilm)?;
-        let w_e = context.view.w_e_1(lens.w_prev, lens.position) * context.view.pdf_lens();
+        let w_e = context.view.w_e_1_on_film(lens.w_prev) * context.view.pdf_lens();
         self.path.join_at_lens(context, &self.light.vertices[..s - 1], &lens);
         Ok(Contribution {
             raster,
@@ -206,7 +207,7 @@ impl Sample {
         // Its visibility, and the path's weight.
         self.edge = Edge { w, geometry };
         self.rays_shadow += 1;
-        if !crossing::visible(context, a, b) {
+        if !crossing::visible(context, a, b, w) {
             return Err(Reason::Blocked);
         }
         self.path.join(context, y, z, &self.edge);
@@ -245,7 +246,7 @@ pub fn segment(a: &Vertex, b: &Vertex, w: Vec3) -> Segment {
 }
 
 /// L_e⁽¹⁾ or f̄ of y_{s−1} along the edge.
-#[inline]
+#[inline(always)]
 fn light_factor(context: &Context, y: &Vertex, s: usize, w: Vec3) -> Result<Vec3, Reason> {
     if s == 1 {
         let l_e_1 = context.scene.lights.list[y.light as usize].l_e_1(y.n_g, w);
@@ -256,7 +257,7 @@ fn light_factor(context: &Context, y: &Vertex, s: usize, w: Vec3) -> Result<Vec3
 }
 
 /// f̄(ω_L, ω_E) at a surface vertex; `Err(true)` if it is a Dirac, `Err(false)` if it is zero.
-#[inline]
+#[inline(always)]
 fn surface_factor(context: &Context, v: &Vertex, w_l: Vec3, w_e: Vec3) -> Result<Vec3, bool> {
     let bsdf = context.scene.bsdf(v.n_g, v.n_s, v.material);
     if bsdf.material.is_dirac() {
@@ -271,5 +272,5 @@ fn surface_factor(context: &Context, v: &Vertex, w_l: Vec3, w_e: Vec3) -> Result
 fn lens_factor(context: &Context, w: Vec3, lens_point: Vec3) -> Result<(f32, Vec2), Reason> {
     let raster = context.view.project(w, lens_point).ok_or(Reason::BehindTheCamera)?;
     context.view.pixel(raster).ok_or(Reason::OutsideTheFilm)?;
-    Ok((context.view.w_e_1(w, lens_point), raster))
+    Ok((context.view.w_e_1_on_film(w), raster))
 }

@@ -8,7 +8,7 @@
 use super::connect::segment;
 use super::vertex::{AT_INFINITY, Subpath, Vertex};
 use super::walk::{Context, Step};
-use crate::math::offset_ray_origin;
+use crate::math::{Vec3, offset_ray_origin};
 use crate::scene::Ray;
 
 /// A light subpath's way through the lens.
@@ -43,11 +43,11 @@ fn crossing(context: &Context, from: &Vertex, step: &Step, rays_shadow: &mut u64
     let (_, point) = context.view.cross_lens(from.position, step.direction)?;
     let lens = arrive_at_lens(context, from, step, point)?;
     *rays_shadow += 1;
-    visible(context, from, &lens).then_some(lens)
+    visible(context, from, &lens, -lens.w_prev).then_some(lens)
 }
 
 /// The lens vertex at `point` as a step from `from` reaches it; `None` if the edge has no G.
-pub fn arrive_at_lens(context: &Context, from: &Vertex, step: &Step, point: crate::math::Vec3) -> Option<Vertex> {
+pub fn arrive_at_lens(context: &Context, from: &Vertex, step: &Step, point: Vec3) -> Option<Vertex> {
     let lens = context.lens_vertex(point);
     let (w, geometry) = from.edge_to(&lens);
     let pdf = step.pdf_fwd_psa * geometry;
@@ -61,13 +61,15 @@ pub fn arrive_at_lens(context: &Context, from: &Vertex, step: &Step, point: crat
     })
 }
 
-/// V of the edge between a light vertex and a surface or lens vertex.
-#[inline]
-pub fn visible(context: &Context, a: &Vertex, b: &Vertex) -> bool {
-    if a.has(AT_INFINITY) {
-        let origin = offset_ray_origin(b.position, b.error, b.n_g, -a.n_g);
-        return context.scene.visible_to_infinity(&Ray { origin, direction: -a.n_g });
-    }
-    let (w, _) = a.edge_to(b);
-    context.scene.visible(&segment(a, b, w))
+/// V of the edge, along `w`, from a light vertex to a surface or lens vertex.
+#[inline(always)]
+pub fn visible(context: &Context, a: &Vertex, b: &Vertex, w: Vec3) -> bool {
+    if a.has(AT_INFINITY) { visible_from_infinity(context, b, w) } else { context.scene.visible(&segment(a, b, w)) }
+}
+
+/// Kept apart, so that the traversal above stays in the registers of its caller.
+#[inline(never)]
+fn visible_from_infinity(context: &Context, b: &Vertex, w: Vec3) -> bool {
+    let origin = offset_ray_origin(b.position, b.error, b.n_g, -w);
+    context.scene.visible_to_infinity(&Ray { origin, direction: -w })
 }

@@ -8,7 +8,7 @@
 //! reaches it through x_{i+1}; roulette included. Diracs are already removed: every strategy that can make the path has the
 //! same ones.
 
-use super::strategy::{MAX_VERTICES, Strategy};
+use super::strategy::MAX_VERTICES;
 use super::vertex::{DISCRETE, Vertex};
 use super::walk::Context;
 use crate::math::Vec3;
@@ -89,7 +89,7 @@ impl FullPath {
     }
 
     /// t = 0: becomes the path of a light subpath y₀…y_{k−1} that went on to the point `lens` of the lens. An eye subpath could
-    /// have chosen that point and left it towards y_{k−1}.
+    /// have chosen that point and left it towards y_{k−1}, which lies on the film.
     pub fn join_at_lens(&mut self, context: &Context, y: &[Vertex], lens: &Vertex) {
         let k = y.len();
         self.begin(context, k);
@@ -98,7 +98,7 @@ impl FullPath {
         }
         self.p_light[k] = lens.pdf_fwd_area;
         self.p_eye[k] = context.view.pdf_lens();
-        self.p_eye[k - 1] = context.view.pdf_direction_psa(lens.w_prev, lens.position) * lens.geometry_prev;
+        self.p_eye[k - 1] = context.view.pdf_direction_psa_on_film(lens.w_prev) * lens.geometry_prev;
         self.activate(context);
     }
 
@@ -142,9 +142,10 @@ impl FullPath {
 
     #[inline]
     fn activate(&mut self, context: &Context) {
-        let first = Strategy::new(0, self.k as u32 + 1).index();
-        for i in 0..=self.k + 1 {
-            self.active[i] = self.samplable[i] && context.settings.strategies.contains_index(first + i);
+        let mut row = context.settings.strategies.row(self.k as u32);
+        for (active, samplable) in self.active.iter_mut().zip(&self.samplable).take(self.k + 2) {
+            *active = *samplable && row & 1 == 1;
+            row >>= 1;
         }
     }
 }
@@ -168,7 +169,8 @@ fn leave_light_vertex_psa(context: &Context, y: &Vertex, s: usize, w: Vec3) -> f
 #[inline]
 fn leave_eye_vertex_psa(context: &Context, z: &Vertex, t: usize, w: Vec3) -> f32 {
     if t == 1 {
-        return context.view.pdf_direction_psa(w, z.position);
+        // The connection has made sure that it meets the film.
+        return context.view.pdf_direction_psa_on_film(w);
     }
     z.survival * context.scene.bsdf(z.n_g, z.n_s, z.material).pdf_psa(z.w_prev, w, TransportMode::Radiance)
 }

@@ -157,13 +157,8 @@ impl Target<'_> {
             let eye_vertices = if self.crop.contains([x, row.y]) { plan.eye_vertices } else { 0 };
             sample.trace(context, id, plan.light_vertices, eye_vertices);
             let (n_light, n_eye) = (sample.light.vertices.len() as u32, sample.eye.vertices.len());
-            for i in 0..sample.crossings.len() {
-                let s = sample.crossings[i].s;
-                if let Some(&(strategy, slot)) = plan.by_t[0].iter().find(|(x, _)| x.s == s)
-                    && let Ok(contribution) = sample.evaluate(context, strategy)
-                {
-                    self.add(strategy, slot, &contribution, id, row);
-                }
+            if !sample.crossings.is_empty() {
+                self.add_crossings(context, plan, sample, row);
             }
             // Strategies beyond a subpath's end contribute zero; the fresh end of (1, t) needs no light subpath.
             for family in plan.by_t.iter().take(n_eye + 1).skip(1) {
@@ -176,7 +171,20 @@ impl Target<'_> {
         }
     }
 
-    #[inline]
+    /// t = 0: rare, and so kept apart.
+    #[inline(never)]
+    fn add_crossings(&mut self, context: &Context, plan: &Plan, sample: &mut Sample, row: &mut Row) {
+        for i in 0..sample.crossings.len() {
+            let s = sample.crossings[i].s;
+            if let Some(&(strategy, slot)) = plan.by_t[0].iter().find(|(x, _)| x.s == s)
+                && let Ok(contribution) = sample.evaluate(context, strategy)
+            {
+                self.add(strategy, slot, &contribution, sample.id, row);
+            }
+        }
+    }
+
+    #[inline(always)]
     fn add(&mut self, strategy: Strategy, slot: Slot, contribution: &Contribution, id: SampleId, row: &mut Row) {
         let raw = contribution.contribution_unweighted;
         let weighted = raw * contribution.mis_weight;

@@ -119,13 +119,18 @@ impl StrategySet {
     /// Is the strategy in the set?
     #[inline]
     pub fn contains(&self, strategy: Strategy) -> bool {
-        self.contains_index(strategy.index())
+        let index = strategy.index();
+        self.0[index / 64] >> (index % 64) & 1 == 1
     }
 
-    /// Is the strategy of this [`Strategy::index`] in the set?
+    /// The row of paths of `edges` edges: bit s is strategy (s, edges + 1 − s).
     #[inline]
-    pub fn contains_index(&self, index: usize) -> bool {
-        self.0[index / 64] >> (index % 64) & 1 == 1
+    pub fn row(&self, edges: u32) -> u128 {
+        let first = Strategy::new(0, edges + 1).index();
+        let word = |i: usize| u128::from(self.0.get(first / 64 + i).copied().unwrap_or(0));
+        let (low, shift) = (word(0) | word(1) << 64, first % 64);
+        // A row has at most 66 bits, so it lies in three words.
+        if shift == 0 { low } else { low >> shift | word(2) << (128 - shift) }
     }
 
     /// Puts a strategy in or takes it out.
@@ -171,6 +176,14 @@ mod tests {
         for k in 1..=10 {
             assert_eq!(Strategy::all(k, false).count() as u32, k * (k + 3) / 2);
             assert_eq!(Strategy::all(k, true).count() as u32, k * (k + 5) / 2);
+        }
+    }
+
+    #[test]
+    fn rows_hold_their_strategies() {
+        let set = StrategySet::where_(|x| (x.s * 7 + x.t * 3) % 5 < 2);
+        for strategy in Strategy::all(MAX_EDGES as u32, true) {
+            assert_eq!(set.row(strategy.edges()) >> strategy.s & 1 == 1, set.contains(strategy), "{strategy}");
         }
     }
 

@@ -13,7 +13,7 @@
 
 use super::settings::Settings;
 use super::vertex::{AT_INFINITY, AT_POINT, DELTA, DISCRETE, End, ON_LENS, ON_LIGHT, ON_SURFACE, Subpath, Vertex};
-use crate::math::{Frame, Vec2, Vec3, offset_ray_origin, sample_disk};
+use crate::math::{Vec2, Vec3, offset_ray_origin, sample_disk};
 use crate::rng::{
     BLOCK_EYE_START, BLOCK_EYE_VERTEX, BLOCK_LIGHT_DIRECTION, BLOCK_LIGHT_PLACE, BLOCK_LIGHT_START, BLOCK_LIGHT_VERTEX, SampleId, pair,
 };
@@ -56,18 +56,27 @@ impl Context<'_> {
         let (lights, u) = (&self.scene.lights, id.numbers(block));
         let index = lights.choose(pair(u, 0))?;
         let light = &lights.list[index as usize];
-        Some(self.emit(match &lights.environment {
-            _ if light.kind == AREA => Vertex::on(&lights.point_on(self.scene, light, pair(u, 2)), ON_LIGHT),
-            Some(map) if light.kind == ENVIRONMENT => {
-                let n_g = -map.sample(pair(u, 2), pair(id.numbers(place), 0));
-                Vertex { n_g, n_s: n_g, ..self.light_vertex(index) }
+        if light.kind == AREA {
+            let (point, pdf) = (lights.point_on(self.scene, light, pair(u, 2)), light.pdf_area());
+            return Some(Vertex { alpha: light.l_e_0() / pdf, pdf_fwd_area: pdf, ..Vertex::on(&point, ON_LIGHT) });
+        }
+        Some(self.sample_light_beyond_surfaces(id, index, pair(u, 2), place))
+    }
+
+    /// y₀ on a light that is no surface. Kept apart: most scenes never come here.
+    #[inline(never)]
+    fn sample_light_beyond_surfaces(&self, id: SampleId, index: u32, u: Vec2, place: u32) -> Vertex {
+        let bare = self.light_vertex(index);
+        self.emit(match &self.scene.lights.environment {
+            Some(map) if self.scene.lights.list[index as usize].kind == ENVIRONMENT => {
+                let n_g = -map.sample(u, pair(id.numbers(place), 0));
+                Vertex { n_g, n_s: n_g, ..bare }
             }
-            _ => self.light_vertex(index),
-        }))
+            _ => bare,
+        })
     }
 
     /// y₀ with the density of its being chosen, and α₁^L = L_e⁽⁰⁾/P.
-    #[inline]
     pub fn emit(&self, y0: Vertex) -> Vertex {
         let lights = &self.scene.lights;
         let light = &lights.list[y0.light as usize];
@@ -81,7 +90,6 @@ impl Context<'_> {
     }
 
     /// x₀ on a light that is no surface, without α and density; an environment's direction is still to be set.
-    #[inline]
     pub fn light_vertex(&self, index: u32) -> Vertex {
         let light = &self.scene.lights.list[index as usize];
         let flags = match light.kind {
@@ -113,9 +121,7 @@ impl Context<'_> {
         let light = &self.scene.lights.list[y0.light as usize];
         let u = id.numbers(BLOCK_LIGHT_DIRECTION);
         let direction = if light.is_infinite() {
-            // Somewhere on a disk before the scene, from which all of it is lit evenly.
-            let (sphere, place, frame) = (self.view.sphere, sample_disk(pair(u, 0)), Frame::around(y0.n_g));
-            y0.position = sphere.centre + (frame.x * place.x + frame.y * place.y - y0.n_g) * sphere.radius;
+            y0.position = self.view.sphere.before(y0.n_g, sample_disk(pair(u, 0)));
             y0.n_g
         } else {
             light.sample_direction(y0.n_g, pair(u, 0), u[2])
@@ -208,6 +214,7 @@ impl Context<'_> {
         End::MaxEdges
     }
     /// The environment's vertex at the end of an eye subpath.
+    #[inline(never)]
     fn arrive_at_infinity(&self, from: &Vertex, light: u32, step: &Step) -> Vertex {
         let geometry = from.n_g.dot(step.direction).abs();
         let position = from.position + step.direction * self.view.sphere.beyond(from.position);

@@ -69,10 +69,10 @@ impl AliasTable {
     #[inline]
     pub fn choose(&self, u: Vec2) -> u32 {
         // Exact: the number of cells is a power of two.
-        let index = (u.x * self.cells.len() as f32) as usize;
-        match self.cells.get(index) {
+        let index = (u.x * self.cells.len() as f32) as u32;
+        match self.cells.get(index as usize) {
             Some(cell) if u.y >= cell.threshold => cell.alias,
-            _ => index as u32,
+            _ => index,
         }
     }
 }

@@ -104,13 +104,13 @@ impl Bvh {
     }
 
     /// The nearest hit with distance > 0.
-    #[inline]
+    #[inline(always)]
     pub fn closest_hit(&self, triangles: &[Triangle], ray: &Ray) -> Option<Hit> {
         self.nearest(triangles, &PreparedRay::new(ray.origin, ray.direction), f32::MAX)
     }
 
     /// Does anything lie strictly between the ends?
-    #[inline]
+    #[inline(always)]
     pub fn any_hit(&self, triangles: &[Triangle], segment: &Segment) -> bool {
         self.traverse::<true>(triangles, &PreparedRay::new(segment.from, segment.to - segment.from), 1.0, |_| true)
     }
@@ -126,7 +126,7 @@ impl Bvh {
         self.nearest(triangles, &PreparedRay::new(segment.from, segment.to - segment.from), 1.0)
     }
 
-    #[inline]
+    #[inline(always)]
     fn nearest(&self, triangles: &[Triangle], ray: &PreparedRay, t_max: f32) -> Option<Hit> {
         let mut best = None;
         self.traverse::<false>(triangles, ray, t_max, |hit| {

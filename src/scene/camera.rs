@@ -56,6 +56,7 @@ pub struct View {
     /// Film size, pixels.
     pub size: [u32; 2],
     half_extent: Vec2,
+    inverse_half_extent: Vec2,
     per_pass: f32,
     inverse_focus: f32,
     /// The sphere around the scene and the lens.
@@ -68,6 +69,7 @@ impl View {
     /// The view of `scene` through `camera` on a film of `width` × `height` pixels.
     pub fn new(scene: &Scene, camera: &Camera, [width, height]: [u32; 2]) -> Self {
         let tan_y = (0.5 * camera.yfov).tan();
+        let half_extent = Vec2::new(tan_y * width as f32 / height as f32, tan_y);
         let lens = camera.lens;
         let sphere = match lens.radius {
             0.0 => scene.sphere,
@@ -81,7 +83,8 @@ impl View {
             axis: camera.axis,
             lens,
             size: [width, height],
-            half_extent: Vec2::new(tan_y * width as f32 / height as f32, tan_y),
+            half_extent,
+            inverse_half_extent: half_extent.recip(),
             per_pass: 1.0 / (width as f32 * height as f32),
             inverse_focus: if lens.radius > 0.0 { 1.0 / lens.focus_distance } else { 0.0 },
             sphere,
@@ -177,9 +180,9 @@ impl View {
         if z <= 0.0 {
             return None;
         }
-        let p = Vec2::new(w.dot(self.right), w.dot(self.up)) / z + self.shift(lens_point);
-        let [x, y] = [p.x / self.half_extent.x, p.y / self.half_extent.y];
-        Some(Vec2::new((x + 1.0) * 0.5 * self.size[0] as f32, (1.0 - y) * 0.5 * self.size[1] as f32))
+        let p = Vec2::new(w.dot(self.right), w.dot(self.up)) * (1.0 / z) + self.shift(lens_point);
+        let at = p * self.inverse_half_extent;
+        Some(Vec2::new((at.x + 1.0) * 0.5 * self.size[0] as f32, (1.0 - at.y) * 0.5 * self.size[1] as f32))
     }
 
     /// The pixel of a raster position; `None` outside the film.
@@ -205,9 +208,9 @@ impl View {
         1.0 / (self.film_area() * (cos * cos) * (cos * cos))
     }
 
-    /// W_e⁽¹⁾(z₁→z₀) of the pixel that `w` (from a point of the lens) meets, sr⁻¹; 0 outside the film.
+    /// W_e⁽¹⁾(z₁→z₀) of the pixel that `w` (from a point of the lens) is known to meet, sr⁻¹.
     #[inline]
-    pub fn w_e_1(&self, w: Vec3, lens_point: Vec3) -> f32 {
-        self.pdf_direction_psa(w, lens_point) * self.pixels()
+    pub fn w_e_1_on_film(&self, w: Vec3) -> f32 {
+        self.pdf_direction_psa_on_film(w) * self.pixels()
     }
 }

@@ -195,7 +195,7 @@ pub struct Scene {
 
 impl Scene {
     /// The first hit of a ray, as a surface point.
-    #[inline]
+    #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<SurfacePoint> {
         let hit = self.bvh.closest_hit(&self.triangles, ray)?;
         Some(self.surface_point(&hit))

@@ -1,6 +1,6 @@
 //! The sphere around a scene: light from infinity starts on a disk of it.
 
-use crate::math::Vec3;
+use crate::math::{Frame, Vec2, Vec3};
 
 /// A sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +34,12 @@ impl Sphere {
         }
         let both = 0.5 * (distance + self.radius + radius);
         Self { centre: self.centre + offset * ((both - self.radius) / distance), radius: both * MARGIN }
+    }
+
+    /// A point on the disk before the sphere, seen along the unit `direction`; `place` in the unit disk.
+    pub fn before(&self, direction: Vec3, place: Vec2) -> Vec3 {
+        let frame = Frame::around(direction);
+        self.centre + (frame.x * place.x + frame.y * place.y - direction) * self.radius
     }
 
     /// A distance from `p` beyond which, in any direction, nothing of the sphere is left, m.

@@ -109,7 +109,7 @@ fn the_camera_covers_its_film_with_the_stated_density() {
         let w = draw(i).unwrap();
         let again = view.direction(view.project(w, view.position).unwrap(), view.position);
         assert!((again - w).length() < 1e-6);
-        assert!((view.w_e_1(w, view.position) / view.pdf_direction_psa(w, view.position) / view.pixels() - 1.0).abs() < 1e-6);
+        assert!((view.w_e_1_on_film(w) / view.pdf_direction_psa(w, view.position) / view.pixels() - 1.0).abs() < 1e-6);
     }
 }
 

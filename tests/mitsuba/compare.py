@@ -19,11 +19,11 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import os
 import subprocess
 import sys
 import tempfile
 import time
+import traceback
 from pathlib import Path
 
 try:
@@ -35,7 +35,7 @@ except ImportError as missing:
 
 from agreement import BLOCK, BLOCK_LIMIT, MEAN_LIMIT, average, compare, judge
 from gltf import Unusable
-from scene import Scene, load, to_mitsuba
+from scene import Scene, load, rgb_picture, to_mitsuba
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 
@@ -48,62 +48,37 @@ def main() -> int:
     except Unusable as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
+    except Exception:  # a bug here is no disagreement, which status 1 would mean
+        traceback.print_exc()
+        return 2
     print(json.dumps(plain(report), indent=1) if args.json else table(report))
     return {"AGREE": 0, "FAILED": 1}.get(report["verdict"], 2)
 
 
 def parse_arguments() -> argparse.Namespace:
     """What the user asks for."""
-    parser = argparse.ArgumentParser(
-        description="Compares the program's picture of a scene with Mitsuba 3's."
-    )
-    parser.add_argument("scene", type=Path, metavar="SCENE", help="a .glb or .gltf file")
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     program = REPOSITORY / "target/release/bdpt-explorer"
-    parser.add_argument(
-        "--program", type=Path, default=program, help="the program [target/release/bdpt-explorer]"
-    )
-    parser.add_argument(
-        "--size", type=size, default=(64, 64), metavar="WxH", help="size of the picture [64x64]"
-    )
-    parser.add_argument(
-        "--max-edges",
-        type=positive,
-        default=5,
-        metavar="K",
-        help="K, the most edges of a path [5]",
-    )
-    parser.add_argument(
-        "--spp", type=positive, default=64, metavar="N", help="our samples per pixel and seed [64]"
-    )
-    parser.add_argument(
-        "--mitsuba-spp",
-        type=positive,
-        metavar="N",
-        help="Mitsuba's samples per pixel and seed [as --spp]",
-    )
-    parser.add_argument(
-        "--seeds",
-        type=positive,
-        default=32,
-        metavar="M",
-        help="independent pictures of each, at least 16 [32]",
-    )
-    parser.add_argument(
-        "--first-seed", type=int, default=0, metavar="S", help="seeds are S, S + 1, … [0]"
-    )
-    parser.add_argument(
-        "--scale",
-        type=float,
-        default=1.0,
-        metavar="F",
-        help="negative control: multiplies our picture by F",
-    )
-    parser.add_argument(
-        "--save",
-        type=Path,
-        metavar="DIR",
-        help="writes ours.exr, mitsuba.exr and sigma.exr (per block)",
-    )
+    options = [
+        ("--program", Path, "FILE", program, "the program [target/release/bdpt-explorer]"),
+        ("--size", size, "WxH", (64, 64), "size of the picture [64x64]"),
+        ("--max-edges", positive, "K", 5, "K, the most edges of a path [5]"),
+        ("--spp", positive, "N", 64, "our samples per pixel and seed [64]"),
+        ("--mitsuba-spp", positive, "N", None, "Mitsuba's samples per pixel and seed [as --spp]"),
+        ("--seeds", positive, "M", 32, "independent pictures of each, at least 16 [32]"),
+        ("--first-seed", int, "S", 0, "seeds are S, S + 1, … [0]"),
+        ("--scale", float, "F", 1.0, "negative control: multiplies our picture by F"),
+        (
+            "--save",
+            Path,
+            "DIR",
+            None,
+            "writes ours.exr, mitsuba.exr and sigma.exr (of the blocks)",
+        ),
+    ]
+    parser.add_argument("scene", type=Path, metavar="SCENE", help="a .glb or .gltf file")
+    for name, kind, metavar, default, text in options:
+        parser.add_argument(name, type=kind, metavar=metavar, default=default, help=text)
     parser.add_argument("--json", action="store_true", help="prints JSON instead of a table")
     args = parser.parse_args()
     args.mitsuba_spp = args.mitsuba_spp or args.spp
@@ -132,9 +107,9 @@ def run(args: argparse.Namespace) -> dict:
     for note in scene.notes:
         print(f"note: {note}", file=sys.stderr)
     start = time.monotonic()
-    theirs = render_mitsuba(scene, args)
-    middle = time.monotonic()
     ours = render_ours(args) * args.scale
+    middle = time.monotonic()
+    theirs = render_mitsuba(scene, args)
     end = time.monotonic()
     report = {
         "scene": str(args.scene),
@@ -143,7 +118,7 @@ def run(args: argparse.Namespace) -> dict:
         "seeds": args.seeds,
         "spp": [args.spp, args.mitsuba_spp],
         "scale": args.scale,
-        "seconds": [round(end - middle, 1), round(middle - start, 1)],
+        "seconds": [round(middle - start, 1), round(end - middle, 1)],
         "mitsuba": mi.__version__,
         **judge(ours, theirs),
     }
@@ -152,14 +127,9 @@ def run(args: argparse.Namespace) -> dict:
     return report
 
 
-def render_mitsuba(scene: Scene, args: argparse.Namespace) -> np.ndarray:
-    """Mitsuba's pictures, [seed, y, x, channel]."""
-    with tempfile.TemporaryDirectory() as folder:
-        loaded = mi.load_dict(to_mitsuba(scene, Path(folder), args.size, args.max_edges))
-    seeds = range(args.first_seed, args.first_seed + args.seeds)
-    return np.stack(
-        [np.array(mi.render(loaded, spp=args.mitsuba_spp, seed=seed), float) for seed in seeds]
-    )
+def seeds(args: argparse.Namespace) -> range:
+    """The seeds of both; their random numbers have nothing in common."""
+    return range(args.first_seed, args.first_seed + args.seeds)
 
 
 def render_ours(args: argparse.Namespace) -> np.ndarray:
@@ -167,39 +137,29 @@ def render_ours(args: argparse.Namespace) -> np.ndarray:
     pictures = []
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "ours.exr"
-        for seed in range(args.first_seed, args.first_seed + args.seeds):
-            options = {
-                "--size": "x".join(map(str, args.size)),
-                "--max-edges": args.max_edges,
-                "--spp": args.spp,
-                "--seed": seed,
-            }
-            command = [
-                args.program,
-                "render",
-                args.scene,
-                "-o",
-                file,
-                *(part for item in options.items() for part in item),
-            ]
+        command = [args.program, "render", args.scene, "-o", file, "--spp", args.spp]
+        command += ["--size", "x".join(map(str, args.size)), "--max-edges", args.max_edges]
+        for seed in seeds(args):
             try:
                 done = subprocess.run(
-                    [os.fspath(c) if isinstance(c, Path) else str(c) for c in command],
-                    capture_output=True,
+                    [str(part) for part in [*command, "--seed", seed]], capture_output=True
                 )
             except OSError as error:
-                raise Unusable(
-                    f"{args.program}: cannot be run ({error.strerror}); build it, or use --program"
-                ) from error
+                reason = f"cannot be run ({error.strerror}); build it, or use --program"
+                raise Unusable(f"{args.program}: {reason}") from error
             if done.returncode != 0:
-                raise Unusable(
-                    f"the program failed: {done.stderr.decode(errors='replace').strip()}"
-                )
-            bitmap = mi.Bitmap(str(file)).convert(
-                mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False
-            )
-            pictures.append(np.array(bitmap, float))
+                said = done.stderr.decode(errors="replace").strip()
+                raise Unusable(f"the program failed: {said}")
+            pictures.append(rgb_picture(file))
     return np.stack(pictures)
+
+
+def render_mitsuba(scene: Scene, args: argparse.Namespace) -> np.ndarray:
+    """Mitsuba's pictures, [seed, y, x, channel]."""
+    with tempfile.TemporaryDirectory() as folder:
+        loaded = mi.load_dict(to_mitsuba(scene, Path(folder), args.size, args.max_edges))
+    pictures = (mi.render(loaded, spp=args.mitsuba_spp, seed=seed) for seed in seeds(args))
+    return np.stack([np.array(picture, float) for picture in pictures])
 
 
 def plain(value):

@@ -43,16 +43,16 @@ class Gltf:
             raise Unusable(f"{path}: not a glTF file") from error
         self.buffers = [
             self._buffer(item, blob if i == 0 else None)
-            for i, item in enumerate(self.list("buffers"))
+            for i, item in enumerate(self.items("buffers"))
         ]
 
-    def list(self, name: str) -> list:
+    def items(self, name: str) -> list:
         """One of the lists at the top of the file; empty if it is not there."""
         return self.root.get(name, [])
 
     def scene(self) -> dict:
         """The default scene."""
-        scenes = self.list("scenes")
+        scenes = self.items("scenes")
         if not scenes:
             raise Unusable(f"{self.path}: the file has no scene")
         return scenes[self.root.get("scene", 0)]
@@ -63,7 +63,7 @@ class Gltf:
         stack = [(index, np.eye(4)) for index in reversed(self.scene().get("nodes", []))]
         while stack:
             index, world_from_parent = stack.pop()
-            node = self.list("nodes")[index]
+            node = self.items("nodes")[index]
             world_from_node = world_from_parent @ local_transform(node)
             stack.extend((child, world_from_node) for child in reversed(node.get("children", [])))
             placed.append((node, world_from_node))
@@ -71,10 +71,10 @@ class Gltf:
 
     def read(self, index: int) -> np.ndarray:
         """The elements of an accessor, a row each."""
-        accessor = self.list("accessors")[index]
+        accessor = self.items("accessors")[index]
         if "sparse" in accessor or "bufferView" not in accessor or accessor.get("normalized"):
             raise Unusable(f"{self.path}: accessor {index} is sparse, empty or quantised")
-        view = self.list("bufferViews")[accessor["bufferView"]]
+        view = self.items("bufferViews")[accessor["bufferView"]]
         dtype, width = COMPONENTS.get(accessor["componentType"]), WIDTHS.get(accessor["type"])
         if dtype is None or width is None:
             raise Unusable(

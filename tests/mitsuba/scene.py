@@ -76,13 +76,13 @@ def load(path: Path) -> Scene:
 
 
 def _load(gltf: Gltf) -> Scene:
-    unknown = set(gltf.list("extensionsUsed")) - KNOWN_EXTENSIONS
+    unknown = set(gltf.items("extensionsUsed")) - KNOWN_EXTENSIONS
     if unknown:
         raise Unusable(f"{gltf.path}: no mapping for the extension {sorted(unknown)[0]}")
     scene, placed = Scene(), gltf.placed()
     for node, world in placed:
         if "mesh" in node:
-            for primitive in gltf.list("meshes")[node["mesh"]]["primitives"]:
+            for primitive in gltf.items("meshes")[node["mesh"]]["primitives"]:
                 scene.meshes.append(mesh(gltf, primitive, world, scene.notes))
     scene.meshes = [item for item in scene.meshes if len(item.corners)]
     if not scene.meshes:
@@ -99,7 +99,7 @@ def _load(gltf: Gltf) -> Scene:
             scene.emitters.append(punctual(light, world, scene, f"{gltf.path}: light {index}"))
         if "camera" in node and not scene.camera:
             name = f"{gltf.path}: camera {node['camera']}"
-            scene.camera = camera(gltf.list("cameras")[node["camera"]], world, scene, name)
+            scene.camera = camera(gltf.items("cameras")[node["camera"]], world, scene, name)
     scene.emitters += environment(gltf)
     if not scene.camera:
         raise Unusable(
@@ -145,7 +145,7 @@ def to_mitsuba(scene: Scene, folder: Path, size: tuple[int, int], max_edges: int
 def mesh(gltf: Gltf, primitive: dict, world: np.ndarray, notes: list[str]) -> Mesh:
     """A primitive in world coordinates with its material."""
     index = primitive.get("material")
-    material = gltf.list("materials")[index] if index is not None else {}
+    material = gltf.items("materials")[index] if index is not None else {}
     name = f"{gltf.path}: material {material.get('name', index)!r}"
     positions, triangles = triangle_list(gltf, primitive)
     corners, normals = place(gltf, primitive, world, positions, triangles)
@@ -317,17 +317,22 @@ def environment(gltf: Gltf) -> list[dict]:
         return [{"type": "constant", "radiance": rgb(value)}] if any(value) else []
     file = gltf.path.parent / value
     try:
-        bitmap = mi.Bitmap(str(file)).convert(
-            mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False
-        )
+        texels, shift = rgb_picture(file), column_shift()
     except RuntimeError as error:
         raise Unusable(f"{gltf.path}: the environment '{file}' cannot be read") from error
-    texels, shift = np.array(bitmap), column_shift()
     height, width = texels.shape[:2]
     fine = np.arange(width) + 0.5 if shift else np.arange(2 * width) / 2
     fine = interpolated(texels, fine - 0.5, np.arange(2 * height + 1) / 2 - 0.5)
     turn = mi.ScalarTransform4f().rotate([0, 1, 0], 180 + extras.get("environmentRotation", 0.0))
     return [{"type": "envmap", "bitmap": mi.Bitmap(fine.astype(np.float32)), "to_world": turn}]
+
+
+def rgb_picture(file: Path) -> np.ndarray:
+    """A picture file's linear RGB, [y, x, channel]."""
+    bitmap = mi.Bitmap(str(file))
+    return np.array(
+        bitmap.convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False), float
+    )
 
 
 def interpolated(texels: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:

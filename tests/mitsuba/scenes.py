@@ -20,13 +20,13 @@ from pathlib import Path
 import numpy as np
 
 INDEX_TYPES = {5121: "u1", 5123: "<u2", 5125: "<u4"}
-WHITE, OCHRE, RED, BLUE, GREEN = (
-    [0.75, 0.74, 0.72],
-    [0.7, 0.5, 0.25],
-    [0.65, 0.12, 0.1],
-    [0.15, 0.25, 0.65],
-    [0.2, 0.6, 0.25],
-)
+WHITE = [0.75, 0.74, 0.72]
+OCHRE = [0.7, 0.5, 0.25]
+RED = [0.65, 0.12, 0.1]
+BLUE = [0.15, 0.25, 0.65]
+GREEN = [0.2, 0.6, 0.25]
+# Where the cameras stand, what they look at, their vertical field of view.
+EYE, LOOK_AT, YFOV = [0.4, 1.6, 5.2], [0.1, 0.8, 0], 0.68
 
 
 class Glb:
@@ -101,26 +101,11 @@ class Glb:
         }
         return self.push("accessors", item)
 
-    def light(
-        self,
-        kind: str,
-        color: list[float],
-        intensity: float,
-        parent: int | None = None,
-        spot=None,
-        **placing,
-    ) -> int:
+    def light(self, light: dict, parent: int | None = None, **placing) -> int:
         """A light of KHR_lights_punctual on a node."""
-        item = {
-            "type": kind,
-            "color": color,
-            "intensity": intensity,
-            **({"spot": spot} if spot else {}),
-        }
-        self.lights.append(item)
-        return self.node(
-            parent, extensions={"KHR_lights_punctual": {"light": len(self.lights) - 1}}, **placing
-        )
+        self.lights.append(light)
+        extension = {"KHR_lights_punctual": {"light": len(self.lights) - 1}}
+        return self.node(parent, extensions=extension, **placing)
 
     def camera(self, position, target, yfov: float, lens: dict | None = None) -> int:
         """A camera that looks from one point to another, +Y up; its node has a matrix."""
@@ -180,8 +165,8 @@ def cube() -> list:
     return quads
 
 
-def stage(back_wall: float = 2.2) -> tuple[Glb, dict]:
-    """The stage with three blocks, without camera and light; and its materials."""
+def stage(back_wall: float = 2.2) -> Glb:
+    """The stage with three blocks, without camera and light."""
     glb = Glb()
     colors = {"white": WHITE, "ochre": OCHRE, "red": RED, "blue": BLUE, "green": GREEN}
     paint = {name: glb.material(color) for name, color in colors.items()}
@@ -203,21 +188,18 @@ def stage(back_wall: float = 2.2) -> tuple[Glb, dict]:
     outer = glb.node(translation=[1000.1, 0, 3], rotation=turn(90))
     inner = glb.node(outer, translation=[2.6, 0.2, -999.9], scale=[0.5, 0.5, 0.5])
     glb.node(inner, mesh=white, rotation=turn(10), scale=[0.3, 0.3, 0.5])
-    return glb, paint
-
-
-EYE, LOOK_AT, YFOV = [0.4, 1.6, 5.2], [0.1, 0.8, 0], 0.68
+    return glb
 
 
 def area(folder: Path) -> None:
     """A lamp overhead that shines downwards only, in a mirrored node; a small glowing block."""
-    glb, _ = stage()
+    glb = stage()
     lamp = glb.mesh(
         [[[-0.5, 0, 0.4], [0.5, 0, 0.4], [0.5, 0, -0.4], [-0.5, 0, -0.4]]],
         glb.material(WHITE, [9, 8, 6]),
     )
     # The quad faces up; mirrored in y it faces down.
-    glb.node(mesh=lamp, translation=[0.2, 2.3, 0.3], scale=[1, -1, 1])
+    glb.node(mesh=lamp, translation=[0.2, 1.75, -0.3], scale=[1, -1, 1])
     glow = glb.mesh(cube(), glb.material(GREEN, [0.5, 2, 4]))
     glb.node(mesh=glow, translation=[-0.3, 0.3, 0.9], rotation=turn(40), scale=[0.15, 0.15, 0.15])
     glb.camera(EYE, LOOK_AT, YFOV)
@@ -226,7 +208,7 @@ def area(folder: Path) -> None:
 
 def lens(folder: Path) -> None:
     """A wide lens, focused before the stage: blocks, walls and the lamp that faces it blur."""
-    glb, _ = stage()
+    glb = stage()
     lamp = glb.mesh(
         [[[-0.3, 0, 0], [0.3, 0, 0], [0.3, 0.5, 0], [-0.3, 0.5, 0]]],
         glb.material(WHITE, [10, 9, 7]),
@@ -237,42 +219,43 @@ def lens(folder: Path) -> None:
     glb.node(mesh=overhead, translation=[-0.3, 2.6, 0.8])
     near = glb.mesh(cube(), glb.material(RED))
     glb.node(mesh=near, translation=[-0.45, 1.15, 3.2], scale=[0.12, 0.12, 0.12])
-    glb.camera(EYE, LOOK_AT, YFOV, {"lensRadius": 0.2, "focusDistance": 3.2})
+    glb.camera(EYE, LOOK_AT, YFOV, {"lensRadius": 0.3, "focusDistance": 3.2})
     glb.write(folder / "lens.glb")
 
 
 def point(folder: Path) -> None:
     """A point light, the child of a scaled node (which must not change its intensity)."""
-    glb, _ = stage()
+    glb = stage()
     parent = glb.node(translation=[0, 1, 0], scale=[2, 2, 2])
-    glb.light("point", [1, 0.8, 0.5], 12, parent, translation=[-0.2, 0.45, 0.5])
+    light = {"type": "point", "color": [1, 0.8, 0.5], "intensity": 12}
+    glb.light(light, parent, translation=[-0.2, 0.45, 0.5])
     glb.camera(EYE, LOOK_AT, YFOV)
     glb.write(folder / "point.glb")
 
 
 def spot(folder: Path) -> None:
     """A spot whose hard edge runs over floor, blocks and a wall."""
-    glb, _ = stage()
+    glb = stage()
     # glTF wants inner < outer; so narrow an edge is beyond what a picture shows.
     cone = {"innerConeAngle": 0.45 * (1 - 1e-4), "outerConeAngle": 0.45}
-    glb.light(
-        "spot", [1, 0.9, 0.7], 30, spot=cone, matrix=looking([1.6, 2.8, 2.2], [-0.3, 0.3, -0.3])
-    )
+    light = {"type": "spot", "color": [1, 0.9, 0.7], "intensity": 30, "spot": cone}
+    glb.light(light, matrix=looking([1.6, 2.8, 2.2], [-0.3, 0.3, -0.3]))
     glb.camera(EYE, LOOK_AT, YFOV)
     glb.write(folder / "spot.glb")
 
 
 def directional(folder: Path) -> None:
-    """A low sun from the left, past the camera."""
-    glb, _ = stage()
-    glb.light("directional", [1, 0.9, 0.75], 5, matrix=looking([1.2, 1.8, 1.4], [0, 0, 0]))
+    """A sun from the right, over the camera's shoulder."""
+    glb = stage()
+    light = {"type": "directional", "color": [1, 0.9, 0.75], "intensity": 5}
+    glb.light(light, matrix=looking([1.2, 1.8, 1.4], [0, 0, 0]))
     glb.camera(EYE, LOOK_AT, YFOV)
     glb.write(folder / "directional.glb")
 
 
 def constant(folder: Path) -> None:
     """An even sky."""
-    glb, _ = stage(1.3)
+    glb = stage(1.3)
     glb.extras["environment"] = [0.6, 0.8, 1.1]
     glb.camera(EYE, LOOK_AT, YFOV)
     glb.write(folder / "constant.glb")
@@ -280,7 +263,7 @@ def constant(folder: Path) -> None:
 
 def environment(folder: Path) -> None:
     """A map, turned by 40°: a broad bright lobe behind the camera, another colour on each side."""
-    glb, _ = stage(1.3)
+    glb = stage(1.3)
     glb.extras.update(environment="environment.hdr", environmentRotation=40.0)
     glb.camera(EYE, LOOK_AT, YFOV)
     glb.write(folder / "environment.glb")

@@ -51,6 +51,11 @@ class Scenes(unittest.TestCase):
         np.testing.assert_allclose(found, wanted, rtol=0, atol=relative * np.abs(wanted).max())
 
 
+def light(kind: str, color: list[float], intensity: float, **more) -> dict:
+    """A light of KHR_lights_punctual."""
+    return {"type": kind, "color": color, "intensity": intensity, **more}
+
+
 def floor(position=(1.0, 4.0, 0.5), target=(1.0, 0.0, 0.5), yfov=0.6) -> Glb:
     """A floor seen from above; the picture's top is −Z, its right is +X."""
     glb = Glb()
@@ -77,7 +82,7 @@ class ClosedForms(Scenes):
     def test_point_light(self):
         """ρ/π · I cos θ / d², and which way is right and up in a picture that is not square."""
         glb, size = floor(), (48, 32)
-        glb.light("point", [1, 0.5, 0.25], 40, translation=[2.2, 1.5, -0.4])
+        glb.light(light("point", [1, 0.5, 0.25], 40), translation=[2.2, 1.5, -0.4])
         to = np.array([2.2, 1.5, -0.4]) - floor_points((1.0, 4.0, 0.5), 0.6, size)
         d = np.linalg.norm(to, axis=-1, keepdims=True)
         wanted = (
@@ -91,7 +96,7 @@ class ClosedForms(Scenes):
         place, aim, angle = np.array([0.2, 3.0, 1.0]), np.array([1.1, 0.0, 0.3]), 0.2
         matrix = looking(place, aim)
         spot = {"innerConeAngle": angle * 0.9999, "outerConeAngle": angle}
-        glb.light("spot", [1, 1, 1], 10, spot=spot, matrix=matrix)
+        glb.light(light("spot", [1, 1, 1], 10, spot=spot), matrix=matrix)
         to = place - floor_points((1.0, 4.0, 0.5), 0.6, size)
         d = np.linalg.norm(to, axis=-1, keepdims=True)
         off_axis = np.arccos(np.sum(-to / d * normalized(aim - place), axis=-1))
@@ -106,7 +111,7 @@ class ClosedForms(Scenes):
     def test_directional(self):
         """ρ/π · E cos θ, E measured across the light's direction."""
         glb = floor()
-        glb.light("directional", [1, 1, 0.5], 3, matrix=looking([3, 4, 0], [0, 0, 0]))
+        glb.light(light("directional", [1, 1, 0.5], 3), matrix=looking([3, 4, 0], [0, 0, 0]))
         self.near(self.render(glb), np.array(RHO) / math.pi * 3 * 0.8 * np.array([1, 1, 0.5]))
 
     def test_constant_environment(self):
@@ -272,7 +277,7 @@ class ClosedForms(Scenes):
             glb = Glb()
             parent = glb.node(translation=[offset, 0, 0])
             glb.node(parent, mesh=glb.mesh(FLOOR, glb.material(RHO)))
-            glb.light("point", [1, 1, 1], 10, parent, translation=[0, 1, 0])
+            glb.light(light("point", [1, 1, 1], 10), parent, translation=[0, 1, 0])
             camera = glb.camera([0, 3, 0], [0, 0, 0], 0.02)
             glb.roots.remove(camera)
             glb.lists["nodes"][parent]["children"].append(camera)
@@ -368,7 +373,7 @@ class Refusals(Scenes):
         """A soft spot, an unknown light, a missing map."""
         for kind, word in (("spot", "soft edge"), ("tube", "tube")):
             glb = floor()
-            glb.light(kind, [1, 1, 1], 1)
+            glb.light(light(kind, [1, 1, 1], 1))
             self.refused(glb, word)
         glb = floor()
         glb.extras["environment"] = "missing.hdr"
