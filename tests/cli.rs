@@ -72,7 +72,22 @@ fn bad_input_is_one_line_and_status_2_and_leaves_nothing() {
         ("render cornell -o a.exr --strategies s1t1,nonsense", "nonsense"),
         ("render cornell -o a.exr --strategies s9t9", "s9t9"),
         ("render cornell -o a.exr --strategies s65t65", "s65t65"),
-        ("render cornell -o a.exr --strategies s2t0", "s2t0"),
+        ("render cornell -o a.exr --strategies s2t0", "s2t0 makes no path in cornell: a pinhole has no area"),
+        ("render cornell -o a.exr --lens-radius -1", "--lens-radius"),
+        ("render cornell -o a.exr --lens-radius wide", "give a radius in metres"),
+        ("render cornell -o a.exr --lens-radius inf", "--lens-radius"),
+        ("render cornell -o a.exr --lens-radius 1e6", "lens-radius 1000000"),
+        ("render cornell -o a.exr --lens-radius 0.1 --focus-distance 0", "--focus-distance"),
+        ("render cornell -o a.exr --focus-distance -2", "give a distance in metres above 0, or inf"),
+        ("inspect cornell --pixel 1,1 --focus-distance NaN", "--focus-distance"),
+        ("render cornell -o a.exr --environment none.hdr", "none.hdr: there is no such file"),
+        ("render cornell -o a.exr --environment .", "this is a folder"),
+        ("render cornell -o a.exr --environment 1,2", "give one number, or three as R,G,B"),
+        ("render cornell -o a.exr --environment -1,0,0", "--environment"),
+        ("render cornell -o a.exr --environment NaN", "--environment"),
+        ("render cornell -o a.exr --environment 1,inf,1", "--environment"),
+        ("render cornell -o a.exr --environment-rotation 90", "cornell: it has no environment that could be turned"),
+        ("render cornell -o a.exr --environment 1 --environment-rotation east", "--environment-rotation"),
         ("render cornell -o a.exr --strategies s2t2 --integrator pt", "--integrator pt"),
         ("render cornell -o a.exr --strategies-mode blur", "--strategies-mode"),
         ("render cornell -o a.exr --beta NaN", "--beta"),
@@ -231,6 +246,61 @@ fn inspect_says_the_same_every_time_and_its_json_has_the_agreed_keys() {
     for word in ["Light subpath", "Eye subpath", "next event", "light tracer", "(1,2)", "y0", "z1"] {
         assert!(table.contains(word), "{word}\n{table}");
     }
+}
+
+#[test]
+fn a_lens_blurs_what_is_out_of_focus_and_adds_the_strategies_that_hit_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let common = "render cornell --size 32x32 --spp 8 --max-edges 2";
+    let own = run(folder.path(), &format!("{common} -o own.exr"));
+    assert!(own.status.success() && own.stderr.is_empty(), "{}", String::from_utf8_lossy(&own.stderr));
+    // The same pinhole, said in words; a focus distance alone changes nothing, and that is told.
+    let output = succeed(folder.path(), &format!("{common} -o pinhole.exr --lens-radius 0 --focus-distance 3"));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("--focus-distance changes nothing"));
+    let read = |name: &str| channels(&folder.path().join(name)).1;
+    assert_eq!(read("own.exr"), read("pinhole.exr"));
+    let output = succeed(folder.path(), &format!("{common} -o lens.exr --lens-radius 0.02 --focus-distance inf --pyramid lens"));
+    assert!(output.stderr.is_empty() && read("own.exr") != read("lens.exr"));
+    let layers = read("lens/pyramid.exr");
+    assert!(layers.contains_key("raw.s2t0.R") && layers.contains_key("raw.s3t0.R"));
+    // What is not said is the camera's own: focused on what the middle of the picture shows, the back of the box.
+    let line = "inspect cornell --pixel 16,16 --size 32x32 --lens-radius 0.02 --json";
+    let record: serde_json::Value = serde_json::from_slice(&succeed(folder.path(), line).stdout).unwrap();
+    let focus = record["focus_distance"].as_f64().unwrap();
+    assert!((1.0..1.4).contains(&focus) && (record["lens_radius"].as_f64().unwrap() - 0.02).abs() < 1e-6, "{focus}");
+}
+
+#[test]
+fn the_environment_may_be_a_radiance_or_a_picture_and_can_be_turned() {
+    let folder = tempfile::tempdir().unwrap();
+    // Left of the middle of the map 1, right of it 3: behind the open side of the box, which is seen from +z, the seam.
+    let sky = folder.path().join("sky.exr");
+    write_rgb_file(&sky, 64, 32, |x, _| if x < 32 { (1.0f32, 1.0f32, 1.0f32) } else { (3.0, 3.0, 3.0) }).unwrap();
+    // Nothing but the environment: one edge, and no lamp in sight at the border, which looks past the box.
+    let border = |options: &str| {
+        let line = format!("render cornell -o a.exr --size 48x16 --spp 2 --max-edges 1 {options}");
+        let output = succeed(folder.path(), &line);
+        assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+        let red = channels(&folder.path().join("a.exr")).1.remove("R").unwrap();
+        [red[8 * 48], red[8 * 48 + 47]]
+    };
+    // The camera looks along +z: the left of the picture shows +x, the map's right half.
+    for (options, [left, right]) in [
+        ("", [0.0, 0.0]),
+        ("--environment 0.25,0,0", [0.25, 0.25]),
+        ("--environment sky.exr", [3.0, 1.0]),
+        ("--environment sky.exr --environment-rotation 180", [1.0, 3.0]),
+        ("--environment sky.exr --environment-rotation -90", [3.0, 3.0]),
+    ] {
+        // Up to the noise of the splats of (1,1).
+        let near = |seen: f32, expected: f32| (seen - expected).abs() <= 0.2 * expected;
+        let seen = border(options);
+        assert!(near(seen[0], left) && near(seen[1], right), "{options}: {seen:?}");
+    }
+    // What the picture had to be repaired of is told.
+    write_rgb_file(&sky, 2, 1, |_, _| (1.0f32, -1.0f32, 1.0f32)).unwrap();
+    let output = succeed(folder.path(), "inspect cornell --pixel 1,1 --environment sky.exr");
+    assert!(String::from_utf8_lossy(&output.stderr).contains("note: The environment map has 2 texels"));
 }
 
 #[test]

@@ -4,6 +4,7 @@ use super::values::*;
 use crate::bdpt::{HeuristicKind, Strategy};
 use crate::engine::Crop;
 use crate::film::tonemap::ToneMap;
+use crate::scene::environment::EnvironmentSource;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgAction, Args, Parser, Subcommand};
 use std::path::PathBuf;
@@ -91,6 +92,18 @@ pub struct EstimatorArgs {
     /// Camera, by its name in the file [default: the first]
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
+    /// Radius of the camera's lens, m; 0 is a pinhole [default: the file's]
+    #[arg(long, value_name = "M", value_parser = lens_radius, allow_hyphen_values = true)]
+    pub lens_radius: Option<f32>,
+    /// Distance of what is sharp, m, or inf [default: the file's, or that of what the middle of the picture shows]
+    #[arg(long, value_name = "M", value_parser = focus_distance, allow_hyphen_values = true)]
+    pub focus_distance: Option<f32>,
+    /// Light from infinity instead of the file's: a .hdr or .exr picture, or a radiance
+    #[arg(long, value_name = "FILE|R,G,B", value_parser = EnvironmentSource::parse, allow_hyphen_values = true)]
+    pub environment: Option<EnvironmentSource>,
+    /// Turns the environment about the upward axis, counter-clockwise seen from above [default: the file's]
+    #[arg(long, value_name = "DEG", value_parser = degrees, allow_hyphen_values = true)]
+    pub environment_rotation: Option<f64>,
     /// K: the most edges a path may have, 1 to 64
     #[arg(long, value_name = "K", value_parser = edges, allow_hyphen_values = true, default_value = "6")]
     pub max_edges: u32,

@@ -2,9 +2,9 @@
 
 use super::Failure;
 use super::args::{EstimatorArgs, Selection};
-use crate::bdpt::{Heuristic, Settings, Strategy, StrategySet};
+use crate::bdpt::{Existence, Heuristic, Settings, Strategy, StrategySet};
 use crate::engine::Job;
-use crate::scene::{Scene, builtin};
+use crate::scene::{Lens, Overrides, Scene, builtin};
 use std::sync::Arc;
 
 /// A job, and the strategies whose sum is the picture.
@@ -18,9 +18,13 @@ pub struct Prepared {
 
 /// Opens the scene, reports the loader's notes, and puts the job together.
 pub fn prepare(args: &EstimatorArgs, hide: bool) -> Result<Prepared, Failure> {
-    let scene = open(&args.scene)?;
+    let overrides = Overrides { environment: args.environment.clone(), environment_rotation: args.environment_rotation };
+    let scene = open(&args.scene, &overrides)?;
     let camera = camera(&scene, args)?;
-    let (taking_part, shown) = strategies(args, hide)?;
+    let lens = lens(scene.cameras[camera].lens, args);
+    let job = Job { camera, lens, size: args.size, ..Job::new(scene) };
+    let existence = job.existence();
+    let (taking_part, shown) = strategies(args, hide, existence)?;
     let settings = Settings {
         max_edges: args.max_edges,
         seed: args.seed,
@@ -29,17 +33,13 @@ pub fn prepare(args: &EstimatorArgs, hide: bool) -> Result<Prepared, Failure> {
         strategies: taking_part,
         ..Settings::default()
     };
-    let mut job = Job { camera, size: args.size, settings, ..Job::new(scene) };
-    let existence = job.existence();
-    let shown: Vec<_> = shown.into_iter().filter(|x| existence.absence(*x).is_none()).collect();
-    let hide = hide && existence.active(&job.settings).count() > shown.len();
-    job.weighted_layers = hide;
-    Ok(Prepared { job, shown, hide })
+    let hide = hide && existence.active(&settings).count() > shown.len();
+    Ok(Prepared { job: Job { settings, weighted_layers: hide, ..job }, shown, hide })
 }
 
 /// Opens a scene and says what its loader had to say.
-pub fn open(name: &str) -> Result<Arc<Scene>, Failure> {
-    let scene = builtin::open(name)?;
+pub fn open(name: &str, overrides: &Overrides) -> Result<Arc<Scene>, Failure> {
+    let scene = builtin::open_with(name, overrides)?;
     for note in &scene.notes {
         eprintln!("note: {note}");
     }
@@ -54,33 +54,40 @@ fn camera(scene: &Scene, args: &EstimatorArgs) -> Result<usize, Failure> {
     })
 }
 
+/// The lens the user asks for, if it is not the camera's own; what is not said stays as it is.
+fn lens(own: Lens, args: &EstimatorArgs) -> Option<Lens> {
+    let radius = args.lens_radius.unwrap_or(own.radius);
+    if args.focus_distance.is_some() && radius == 0.0 {
+        eprintln!("note: --focus-distance changes nothing, as the camera is a pinhole; give it a --lens-radius");
+    }
+    let lens = Lens { radius, focus_distance: args.focus_distance.unwrap_or(own.focus_distance) };
+    (lens != own).then_some(lens)
+}
+
 /// The strategies that share the weights, and those whose sum is the picture.
-fn strategies(args: &EstimatorArgs, hide: bool) -> Result<(StrategySet, Vec<Strategy>), Failure> {
+fn strategies(args: &EstimatorArgs, hide: bool, existence: Existence) -> Result<(StrategySet, Vec<Strategy>), Failure> {
     let integrator = match args.integrator.as_str() {
         "pt" => StrategySet::path_tracer(),
         "lt" => StrategySet::light_tracer(),
         _ => StrategySet::ALL,
     };
-    let possible = Strategy::all(args.max_edges, true).filter(|&strategy| integrator.contains(strategy));
+    let exists = |x: &Strategy| integrator.contains(*x) && existence.absence(*x).is_none();
+    let possible = Strategy::all(args.max_edges, true).filter(exists);
     let Selection::Listed(listed) = &args.strategies else { return Ok((integrator, possible.collect())) };
     for &strategy in listed {
-        check_strategy(strategy, &integrator, args)?;
+        let (k, max) = (strategy.edges(), args.max_edges);
+        let reason = if k > max {
+            format!("makes paths of {k} edges, but --max-edges is {max}; raise that, or leave it out")
+        } else if !integrator.contains(strategy) {
+            format!("is no part of --integrator {}; leave it out, or use --integrator bdpt", args.integrator)
+        } else if let Some(absence) = existence.absence(strategy) {
+            format!("makes no path in {}: {}", args.scene, absence.text())
+        } else {
+            continue;
+        };
+        return Err(Failure(format!("--strategies: {strategy} {reason}")));
     }
     let shown: Vec<_> = possible.filter(|strategy| listed.contains(strategy)).collect();
     let taking_part = if hide { integrator } else { shown.iter().copied().collect() };
     Ok((taking_part, shown))
-}
-
-fn check_strategy(strategy: Strategy, integrator: &StrategySet, args: &EstimatorArgs) -> Result<(), Failure> {
-    let (k, max) = (strategy.edges(), args.max_edges);
-    let reason = if strategy.t == 0 {
-        "needs a lens that light can hit, and these cameras are pinholes; leave it out".to_owned()
-    } else if k > max {
-        format!("makes paths of {k} edges, but --max-edges is {max}; raise that, or leave it out")
-    } else if !integrator.contains(strategy) {
-        format!("is no part of --integrator {}; leave it out, or use --integrator bdpt", args.integrator)
-    } else {
-        return Ok(());
-    };
-    Err(Failure(format!("--strategies: {strategy} {reason}")))
 }

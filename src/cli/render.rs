@@ -11,6 +11,7 @@ use crate::film::save::{Layer, Window, check_writable, save_bytes, save_exr, sav
 use crate::film::tonemap::{ToneMap, to_srgb8};
 use crate::math::Vec3;
 use crate::report::{ContactSheet, Heading};
+use crate::scene::Overrides;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -53,7 +54,7 @@ pub fn run(args: &RenderArgs) -> Result<(), Failure> {
 
 /// Renders `scene` at the defaults into a folder, because there is no window to show it in.
 pub fn without_window(why: &str, scene: &str) -> Result<(), Failure> {
-    let scene = open(scene)?;
+    let scene = open(scene, &Overrides::default())?;
     let folder = Path::new("bdpt-explorer-out");
     eprintln!("no window: {why}");
     eprintln!("rendering {} on the CPU into ./{}/ instead (at most {} s)", scene.name, folder.display(), PATIENCE.as_secs());

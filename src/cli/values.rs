@@ -44,6 +44,22 @@ pub fn seconds(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|s| *s > 0.0 && *s <= 1e7).ok_or("give a number of seconds above 0, at most 10000000".to_owned())
 }
 
+/// The radius of a lens, m.
+pub fn lens_radius(text: &str) -> Result<f32, String> {
+    let good = |radius: &f32| *radius >= 0.0 && radius.is_finite();
+    text.parse().ok().filter(good).ok_or("give a radius in metres, 0 (a pinhole) or more".to_owned())
+}
+
+/// A focus distance, m.
+pub fn focus_distance(text: &str) -> Result<f32, String> {
+    text.parse().ok().filter(|distance: &f32| *distance > 0.0).ok_or("give a distance in metres above 0, or inf".to_owned())
+}
+
+/// An angle.
+pub fn degrees(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|angle: &f64| angle.abs() <= 3600.0).ok_or("give degrees from -3600 to 3600".to_owned())
+}
+
 /// `WxH`.
 pub fn size(text: &str) -> Result<[u32; 2], String> {
     let parse = || text.split_once('x').and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
@@ -88,6 +104,8 @@ mod tests {
         assert_eq!(crop("1,2,3,4"), Ok(Crop { x: 1, y: 2, width: 3, height: 4 }));
         assert_eq!((edges("64"), positive("1"), natural("0")), (Ok(64), Ok(1), Ok(0)));
         assert_eq!((beta("0.5"), fraction("1"), stops("-2"), seconds("1e-3")), (Ok(0.5), Ok(1.0), Ok(-2.0), Ok(1e-3)));
+        assert_eq!((lens_radius("0"), lens_radius("0.05"), degrees("-90")), (Ok(0.0), Ok(0.05), Ok(-90.0)));
+        assert_eq!((focus_distance("1e-3"), focus_distance("inf")), (Ok(1e-3), Ok(f32::INFINITY)));
         assert!(picture_path("a.b.EXR").is_ok() && picture_path("x/y.png").is_ok());
     }
 
@@ -105,6 +123,10 @@ mod tests {
         for text in ["NaN", "nan", "inf", "-inf", "-1", "1e39", "", "two"] {
             assert!(beta(text).is_err() && fraction(text).is_err() && seconds(text).is_err(), "{text}");
         }
+        for text in ["", "-1", "NaN", "wide", "1e-60"] {
+            assert!(focus_distance(text).is_err() && (text == "1e-60" || lens_radius(text).is_err()), "{text}");
+        }
+        assert!(lens_radius("inf").is_err() && focus_distance("0").is_err() && degrees("NaN").is_err() && degrees("inf").is_err());
         assert!(stops("NaN").is_err() && stops("inf").is_err() && seconds("0").is_err() && positive("0").is_err());
         assert!(edges("0").is_err() && edges("65").is_err() && edges("100000").is_err());
         assert!(picture_path("a.jpg").is_err() && picture_path("exr").is_err());

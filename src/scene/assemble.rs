@@ -83,6 +83,22 @@ pub enum PartLight {
 }
 
 impl PartLight {
+    /// Its intensity (W sr⁻¹) or irradiance (W m⁻²).
+    pub fn strength(&self) -> Vec3 {
+        match self {
+            Self::Point { intensity, .. } | Self::Spot { intensity, .. } => *intensity,
+            Self::Directional { irradiance, .. } => *irradiance,
+        }
+    }
+
+    /// Where it is, if it is somewhere.
+    fn position(&self) -> Option<DVec3> {
+        match self {
+            Self::Point { position, .. } | Self::Spot { position, .. } => Some(*position),
+            Self::Directional { .. } => None,
+        }
+    }
+
     /// The light relative to `origin`; `None` if it has no direction where it needs one.
     fn relative_to(&self, origin: DVec3) -> Option<Light> {
         let place = |p: &DVec3| (*p - origin).as_vec3();
@@ -160,7 +176,8 @@ impl Scene {
     ///
     /// # Errors
     /// If no triangle has an area and nothing comes from infinity, there is no usable camera, a coordinate is not finite, the
-    /// extent exceeds [`MAX_EXTENT`], or a triangle names a material that does not exist.
+    /// extent, or the distance of a camera or a light, exceeds [`MAX_EXTENT`], or a triangle names a material that does not
+    /// exist.
     pub fn assemble(mut parts: Parts) -> Result<Self, SceneError> {
         // With a sky there is something to see even where there is nothing else.
         let sky = parts.environment.is_some();
@@ -175,6 +192,15 @@ impl Scene {
             return Err(parts.error(format!("the scene is {extent:.1e} m wide, at most {MAX_EXTENT:.0e} m can be rendered; scale it down")));
         }
         let origin = bounds.centre();
+        let cameras = parts.cameras.iter().map(|camera| ("camera", &camera.name, camera.position));
+        let lights = parts.lights.iter().filter_map(|(name, light)| Some(("light", name, light.position()?)));
+        for (kind, name, distance) in cameras.chain(lights).map(|(kind, name, p)| (kind, name, (p - origin).length())) {
+            if distance.is_nan() || distance > MAX_EXTENT {
+                let reason =
+                    format!("it is {distance:.1e} m away from the scene, at most {MAX_EXTENT:.0e} m can be rendered; move it nearer");
+                return Err(SceneError::element(Path::new(&parts.name), format!("{kind} '{name}'"), reason));
+            }
+        }
         let (mut triangles, normals) = recentred(&parts, origin)?;
         let dropped = parts.triangles.len() - triangles.len();
         if triangles.is_empty() && !sky {

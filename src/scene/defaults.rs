@@ -1,43 +1,59 @@
-//! What a file leaves out: a camera that frames the scene, a lamp that lights it. Each default is said in the notes.
+//! What a file leaves out: a camera that frames the scene, a studio that lights it. Each default is said in the notes. And
+//! what a user wants otherwise than the file has it.
 
-use super::Material;
-use super::assemble::{Bounds, PartCamera, PartTriangle, Parts};
+use super::assemble::{Bounds, PartCamera, PartLight, PartTriangle, Parts};
+use super::environment::{Environment, EnvironmentSource};
 use crate::math::{DVec3, Vec3};
+use std::f64::consts::{PI, TAU};
 
 /// Vertical field of view of the framed camera, radians.
-const YFOV: f64 = 40.0 * std::f64::consts::PI / 180.0;
+const YFOV: f64 = 40.0 * PI / 180.0;
 
-/// Irradiance of the default light at the point it faces, W m⁻². Mid-grey surfaces that face it then show a radiance near
-/// 0.5 W m⁻² sr⁻¹: 0.5/π · 3.2 ≈ 0.5.
-const IRRADIANCE: f64 = 3.2;
+/// Irradiance of the studio's light on a plane that faces the key light, W m⁻². A mid-grey surface (albedo 0.5) then shows a
+/// radiance of 0.5 W m⁻² sr⁻¹.
+const IRRADIANCE: f64 = PI;
+
+/// Texels of the studio's map, around and from top to bottom.
+const STUDIO: [u32; 2] = [64, 32];
+
+/// What the user wants otherwise than the file has it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Overrides {
+    /// Instead of the file's environment.
+    pub environment: Option<EnvironmentSource>,
+    /// Degrees (finite) by which the environment is turned about +Y, counter-clockwise seen from above, instead of the file's.
+    pub environment_rotation: Option<f64>,
+}
 
 impl Parts {
-    /// Adds a camera that frames everything if there is none.
+    /// Adds a camera if there is none: one that frames everything, or, where there is nothing but an environment, one at zero.
     #[must_use]
     pub fn with_default_camera(mut self) -> Self {
-        if let (true, Some(bounds)) = (self.cameras.is_empty(), self.bounds()) {
+        if !self.cameras.is_empty() {
+            return self;
+        }
+        if let Some(bounds) = self.bounds() {
             self.cameras.push(framed_camera(&bounds));
             self.notes.push("No usable camera in the file: one that frames the whole scene was added.".into());
+        } else if self.triangles.is_empty() && self.environment.is_some() {
+            let camera = PartCamera { name: "default".into(), axis: DVec3::NEG_Z, up: DVec3::Y, yfov: YFOV, ..PartCamera::default() };
+            self.cameras.push(camera);
+            self.notes.push("No usable camera in the file: one at its zero that looks along -Z was added.".into());
         }
         self
     }
 
-    /// Adds a large lamp above and behind the first camera if there is something to light and nothing emits.
+    /// Adds a soft studio environment, turned by `rotation` degrees, if there is something to light and nothing to light it.
     #[must_use]
-    pub fn with_default_light(mut self) -> Self {
+    pub fn with_default_environment(mut self, rotation: f64) -> Self {
         let (Some(bounds), Some(camera)) = (self.bounds(), self.cameras.first()) else { return self };
         let visible = |t: &&PartTriangle| t.relative_to(bounds.centre()).is_some();
         let emits = |t: &PartTriangle| self.materials.get(t.material as usize).is_some_and(|(_, m)| m.emits());
-        let lit = self.triangles.iter().filter(visible).any(emits);
+        let shines = |(_, light): &(String, PartLight)| light.strength().max_element() > 0.0;
+        let lit = self.environment.is_some() || self.lights.iter().any(shines) || self.triangles.iter().filter(visible).any(emits);
         if !lit && self.triangles.iter().any(|t| visible(&t)) {
-            let (corners, radiance) = lamp(&bounds, camera);
-            let material = self.materials.len() as u32;
-            self.materials
-                .push(("default light".into(), Material { emission: Vec3::splat(radiance as f32), ..Material::lambert(Vec3::ZERO) }));
-            for [a, b, c] in [[0, 1, 2], [0, 2, 3]] {
-                self.triangles.push(PartTriangle { corners: [corners[a], corners[b], corners[c]], normals: None, material });
-            }
-            self.notes.push("No area light in the file: a large one above and behind the camera was added.".into());
+            self.environment = Some(studio(camera, rotation));
+            self.notes.push("No light in the file: a soft studio environment was added.".into());
         }
         self
     }
@@ -68,25 +84,21 @@ fn framed_camera(bounds: &Bounds) -> PartCamera {
     }
 }
 
-/// The default lamp: the corners of a square, counter-clockwise seen from what it lights, and its radiance, W m⁻² sr⁻¹.
-///
-/// It lies wholly behind the camera's plane, so it hides nothing; seen from outside the scene it faces the centre, from
-/// inside it faces what the camera looks at.
-fn lamp(bounds: &Bounds, camera: &PartCamera) -> ([DVec3; 4], f64) {
+/// A sky that is brighter above than below, and in it one broad key light above and to the left of the camera, behind it.
+fn studio(camera: &PartCamera, rotation: f64) -> Environment {
     let axis = camera.axis.normalize_or(DVec3::NEG_Z);
     let right = axis.cross(camera.up).normalize_or(axis.any_orthonormal_vector());
-    let up = right.cross(axis);
-    let (reach, target) = if bounds.contains(camera.position) {
-        let reach = 0.2 * bounds.radius();
-        (reach, camera.position + axis * (2.0 * reach))
-    } else {
-        ((bounds.centre() - camera.position).length().max(bounds.radius()), bounds.centre())
+    let key = (right.cross(axis) * 0.7 - right * 0.6 - axis * 0.5).normalize();
+    let [width, height] = STUDIO;
+    let direction = |x: u32, y: u32| {
+        let (phi, theta) = (TAU * ((f64::from(x) + 0.5) / f64::from(width) - 0.5), PI * (f64::from(y) + 0.5) / f64::from(height));
+        DVec3::new(phi.sin() * theta.sin(), theta.cos(), -phi.cos() * theta.sin())
     };
-    let centre = camera.position + (up * 0.8 + right * 0.4 - axis * 0.5) * reach;
-    let side = 0.6 * reach;
-    let normal = (target - centre).normalize_or(axis);
-    let (u, v) = normal.any_orthonormal_pair();
-    let corner = |a: f64, b: f64| centre + (u * a + v * b) * (0.5 * side);
-    let radiance = IRRADIANCE * (target - centre).length_squared() / (side * side);
-    ([corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)], radiance)
+    let directions: Vec<DVec3> = (0..width * height).map(|i| direction(i % width, i / width)).collect();
+    let radiance = |w: &DVec3| 0.4 + 0.25 * w.y + 5.0 * ((w.dot(key) - 1.0) * 8.0).exp();
+    // sinθ Δθ Δφ is a texel's solid angle.
+    let texel = TAU / f64::from(width) * PI / f64::from(height);
+    let irradiance: f64 = directions.iter().map(|w| radiance(w) * w.dot(key).max(0.0) * (1.0 - w.y * w.y).sqrt() * texel).sum();
+    let map: Vec<Vec3> = directions.iter().map(|w| Vec3::splat((radiance(w) * IRRADIANCE / irradiance) as f32)).collect();
+    Environment::from_map(STUDIO, &map, rotation)
 }

@@ -15,7 +15,7 @@ use crate::math::{DVec3, PI, Vec2, Vec3, sin_cos_turn, turn_of};
 use crate::shared_struct;
 
 mod file;
-pub use file::EnvironmentSource;
+pub use file::{EnvironmentSource, MAX_RADIANCE};
 
 shared_struct! {
     /// One texel of the map.
@@ -38,6 +38,8 @@ pub struct Environment {
     pub texels: Vec<Texel>,
     /// Chooses a texel.
     pub choice: AliasTable,
+    /// ∫ L dω, W m⁻² per channel.
+    pub integral: Vec3,
     /// Counter-clockwise seen from above, in turns.
     rotation: f32,
 }
@@ -51,24 +53,19 @@ impl Environment {
     /// A map of `width` × `height` radiances (finite, ≥ 0), row by row from the top, turned by `rotation` degrees about +Y.
     pub fn from_map([width, height]: [u32; 2], radiance: &[Vec3], rotation: f64) -> Self {
         let (w, h) = (width as usize, height as usize);
-        let at = |x: usize, y: usize| f64::from(radiance[y * w + x % w].element_sum());
+        let at = |x: usize, y: usize| radiance[y * w + x % w].as_dvec3();
         // Means of the interpolant over texels, first around, then from top to bottom.
-        let around = |x: usize, y: usize| 0.75 * at(x, y) + 0.125 * (at(x + 1, y) + at(x + w - 1, y));
-        let mean = |x: usize, y: usize| 0.75 * around(x, y) + 0.125 * (around(x, y.saturating_sub(1)) + around(x, (y + 1).min(h - 1)));
+        let around = |x: usize, y: usize| at(x, y) * 0.75 + (at(x + 1, y) + at(x + w - 1, y)) * 0.125;
+        let mean = |x: usize, y: usize| around(x, y) * 0.75 + (around(x, y.saturating_sub(1)) + around(x, (y + 1).min(h - 1))) * 0.125;
         let solid_angle = |y: usize| solid_angle(y as u32, [width, height]);
-        let weights: Vec<f64> = (0..w * h).map(|i| mean(i % w, i / w) * f64::from(solid_angle(i / w))).collect();
+        let light: Vec<DVec3> = (0..w * h).map(|i| mean(i % w, i / w) * f64::from(solid_angle(i / w))).collect();
+        let weights: Vec<f64> = light.iter().map(|l| l.element_sum()).collect();
         let lit = weights.iter().any(|&w| w > 0.0);
         let (choice, pmf) = if lit { AliasTable::new(&weights) } else { (AliasTable::default(), vec![0.0; w * h]) };
         let texel = |(i, &radiance): (usize, &Vec3)| Texel { radiance, pdf_sa: pmf[i] / solid_angle(i / w) };
         let texels = radiance.iter().enumerate().map(texel).collect();
-        Self { width, height, texels, choice, rotation: (rotation / 360.0).rem_euclid(1.0) as f32 }
-    }
-
-    /// ∫ L dω, W m⁻² per channel.
-    pub fn integral(&self) -> Vec3 {
-        let solid_angle = |i: usize| f64::from(solid_angle(i as u32 / self.width, [self.width, self.height]));
-        let sum: DVec3 = self.texels.iter().enumerate().map(|(i, t)| t.radiance.as_dvec3() * solid_angle(i)).sum();
-        sum.as_vec3()
+        let integral = light.iter().sum::<DVec3>().as_vec3();
+        Self { width, height, texels, choice, integral, rotation: (rotation / 360.0).rem_euclid(1.0) as f32 }
     }
 
     /// Does any light come from it?

@@ -1,15 +1,17 @@
-//! Loads glTF 2.0 (.gltf and .glb): triangles, cameras, area lights and the materials we have models for.
+//! Loads glTF 2.0 (.gltf and .glb): triangles, cameras, lights and the materials we have models for.
 //!
 //! Node transforms are composed in f64; everything the file does not say, and everything of it that is not shown, is named in
 //! [`Scene::notes`]. A file that cannot be read is an error of one line that names the element and what to do.
 
 mod accessor;
 mod container;
+mod extras;
+mod lights;
 mod material;
 mod mesh;
 mod nodes;
 
-use super::{Parts, Scene, SceneError};
+use super::{Overrides, Parts, Scene, SceneError};
 use container::Document;
 use material::Materials;
 use std::path::Path;
@@ -30,26 +32,27 @@ const KNOWN_EXTENSIONS: [&str; 9] = [
 /// Loads a .gltf or .glb file.
 ///
 /// # Errors
-/// If the file or a buffer it names cannot be read, anything it refers to does not exist or does not fit, it requires an
-/// extension we do not know, or it shows no triangle.
-pub fn load(path: &Path) -> Result<Scene, SceneError> {
+/// If the file or another that it or the user names cannot be read, anything it refers to does not exist or does not fit, it
+/// requires an extension we do not know, there is nothing to see, or no environment where one is to be turned.
+pub fn load(path: &Path, overrides: &Overrides) -> Result<Scene, SceneError> {
     let bytes = std::fs::read(path).map_err(|e| match e.kind() {
         std::io::ErrorKind::NotFound => SceneError::file(path, "there is no such file; check the path"),
         _ => SceneError::file(path, format!("cannot be read ({e}); check the path and its permissions")),
     })?;
     let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
-    read(&name, path, &bytes, Some(path.parent().unwrap_or(Path::new(""))))
+    read(&name, (path, path.parent().or(Some(Path::new("")))), &bytes, overrides)
 }
 
 /// Loads a .glb (or a self-contained .gltf) from memory; `name` is used for the scene and in errors.
 ///
 /// # Errors
-/// As [`load`]; a buffer in another file is an error too.
-pub fn load_bytes(name: &str, bytes: &[u8]) -> Result<Scene, SceneError> {
-    read(name, Path::new(name), bytes, None)
+/// As [`load`]; that the file names another is an error too.
+pub fn load_bytes(name: &str, bytes: &[u8], overrides: &Overrides) -> Result<Scene, SceneError> {
+    read(name, (Path::new(name), None), bytes, overrides)
 }
 
-fn read(name: &str, file: &Path, bytes: &[u8], folder: Option<&Path>) -> Result<Scene, SceneError> {
+/// Reads a file; those it names are looked for in `folder`.
+fn read(name: &str, (file, folder): (&Path, Option<&Path>), bytes: &[u8], overrides: &Overrides) -> Result<Scene, SceneError> {
     let document = Document::parse(file, bytes, folder)?;
     if let Some(extension) = document.root.extensions_required.iter().find(|e| !KNOWN_EXTENSIONS.contains(&e.as_str())) {
         return Err(SceneError::file(file, format!("it requires the extension {extension}, which cannot be read; export it without")));
@@ -58,27 +61,29 @@ fn read(name: &str, file: &Path, bytes: &[u8], folder: Option<&Path>) -> Result<
     let mut notes = Vec::new();
     let mut materials = Materials::new(&document);
     let cameras = nodes::cameras(&document, &placed, &mut notes)?;
+    let lights = lights::lights(&document, &placed, &mut notes)?;
+    let environment = extras::environment(&document, overrides, &mut notes)?;
     let triangles = mesh::triangles(&document, &placed, &mut materials, &mut notes)?;
     let list = std::mem::take(&mut materials.list);
     notes.extend(materials.notes());
     notes.extend(ignored_parts(&document));
-    let parts = Parts { name: name.to_owned(), triangles, materials: list, cameras, notes, ..Parts::default() };
+    let parts = Parts { name: name.to_owned(), triangles, materials: list, cameras, lights, environment, notes };
+    let parts = parts.with_default_camera().with_default_environment(overrides.environment_rotation.unwrap_or(0.0));
+    if overrides.environment_rotation.is_some() && parts.environment.is_none() {
+        return Err(SceneError::file(file, "it has no environment that could be turned; give it one as well"));
+    }
     // Errors name the file as the user did, not as the scene is called.
-    Scene::assemble(parts.with_default_camera().with_default_light()).map_err(|e| SceneError { file: file.display().to_string(), ..e })
+    Scene::assemble(parts).map_err(|e| SceneError { file: file.display().to_string(), ..e })
 }
 
 /// A sentence for each kind of thing in the file that is not shown.
 fn ignored_parts(document: &Document) -> Vec<String> {
     let root = &document.root;
     let morphs = root.meshes.iter().flat_map(|mesh| &mesh.primitives).filter(|p| p.targets.as_ref().is_some_and(|t| !t.is_empty()));
-    let punctual = root.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref());
-    let environments = root.scenes.iter().filter(|s| s.extras.as_ref().is_some_and(|e| e.get().contains("\"environment\"")));
     let counts = [
         ("animations", root.animations.len()),
         ("skins", root.skins.len()),
         ("morph targets, the primitives keep their rest shape", morphs.count()),
-        ("point, spot or directional lights", punctual.map_or(0, |e| e.lights.len())),
-        ("environment lights", environments.count()),
     ];
     let counts = counts.into_iter().filter(|(_, n)| *n > 0).map(|(what, n)| format!("Ignored: {what} ({n})."));
     let unknown = root.extensions_used.iter().filter(|e| !KNOWN_EXTENSIONS.contains(&e.as_str()));

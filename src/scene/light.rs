@@ -242,7 +242,7 @@ impl Lights {
         list.extend(environment.iter().map(|_| Light::new(ENVIRONMENT, Vec3::ONE)));
         let disk = f64::from(PI) * f64::from(radius) * f64::from(radius);
         let power = |light: &Light| match (light.kind, &environment) {
-            (ENVIRONMENT, Some(map)) => map.integral().as_dvec3() * disk,
+            (ENVIRONMENT, Some(map)) => map.integral.as_dvec3() * disk,
             (DIRECTIONAL, _) => light.radiance.as_dvec3() * disk,
             (AREA, _) => light.l_e_0().as_dvec3() * f64::from(light.area),
             _ => light.l_e_0().as_dvec3(),

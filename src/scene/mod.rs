@@ -21,6 +21,7 @@ pub use assemble::Parts;
 pub use bsdf::{Bsdf, BsdfSample, TransportMode};
 pub use bvh::{Bvh, Hit, Ray, Segment};
 pub use camera::{Camera, Lens, View};
+pub use defaults::Overrides;
 pub use environment::Environment;
 pub use error::SceneError;
 pub use features::SceneFeatures;

@@ -199,6 +199,17 @@ impl Glb {
         self.node(json!({ "name": name, "camera": camera, "translation": position, "rotation": rotation }))
     }
 
+    /// Adds a light of `KHR_lights_punctual`, to be shown by nodes.
+    pub fn light(&mut self, light: Value) -> usize {
+        let lights = &mut self.json["extensions"]["KHR_lights_punctual"]["lights"];
+        if lights.is_null() {
+            *lights = json!([]);
+        }
+        let lights = lights.as_array_mut().unwrap();
+        lights.push(light);
+        lights.len() - 1
+    }
+
     /// Adds an accessor of f32 vectors.
     pub fn vec3s(&mut self, list: &[[f32; 3]], with_range: bool) -> usize {
         let bytes: Vec<u8> = list.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
@@ -238,8 +249,8 @@ impl Glb {
         if let Some(uri) = uri {
             json["buffers"][0]["uri"] = json!(uri);
         }
-        let mut used: Vec<_> =
-            self.json["materials"].as_array().unwrap().iter().filter_map(|m| m["extensions"].as_object()).flat_map(|e| e.keys()).collect();
+        let materials = self.json["materials"].as_array().unwrap().iter().filter_map(|m| m["extensions"].as_object());
+        let mut used: Vec<_> = materials.chain(self.json["extensions"].as_object()).flat_map(|e| e.keys()).collect();
         used.sort();
         used.dedup();
         if json.get("extensionsUsed").is_none() && !used.is_empty() {

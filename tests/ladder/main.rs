@@ -6,6 +6,7 @@ mod emitters_scenes;
 mod hard;
 mod images;
 mod lens;
+mod lights;
 mod replay;
 mod sampling;
 mod scenes;

@@ -30,9 +30,9 @@ fn cornell_is_the_classic_box() {
         assert!(scene.point_on_triangle(light.triangle, Vec2::splat(0.3)).n_g.y < -0.999);
     }
     // The camera looks into the box: red on the left of the picture, green on the right.
-    let view = View::new(&scene.cameras[0], 64, 64);
+    let view = View::new(&scene, &scene.cameras[0], [64, 64]);
     let color = |x, y| {
-        let hit = scene.intersect(&Ray { origin: view.position, direction: view.direction(Vec2::new(x, y)) }).unwrap();
+        let hit = scene.intersect(&Ray { origin: view.position, direction: view.direction(Vec2::new(x, y), view.position) }).unwrap();
         scene.materials[hit.material as usize].color
     };
     assert!(color(3.0, 30.0).x > 0.6 && color(3.0, 30.0).y < 0.1);
@@ -51,20 +51,20 @@ fn features_of_the_built_in_scenes() {
 #[test]
 fn no_visible_point_of_indirect_sees_the_lamp() {
     let scene = builtin::open("indirect").unwrap();
-    let view = View::new(&scene.cameras[0], 96, 96);
+    let view = View::new(&scene, &scene.cameras[0], [96, 96]);
     let mut checked = 0;
     for i in 0..96 * 96 {
         let raster = Vec2::new((i % 96) as f32 + 0.5, (i / 96) as f32 + 0.5);
-        let hit = scene.intersect(&Ray { origin: view.position, direction: view.direction(raster) }).unwrap();
+        let hit = scene.intersect(&Ray { origin: view.position, direction: view.direction(raster, view.position) }).unwrap();
         assert_eq!(hit.light, NONE);
         for j in 0..32 {
             let u = |k: i32| ((j * k) as f32 * 0.618_034).fract();
-            let light = scene.lights.choose(Vec2::new(u(1), u(5))).unwrap();
-            let point = scene.lights.point_on(&scene, &scene.lights.list[light as usize], Vec2::new(u(3), u(7)));
+            let light = &scene.lights.list[scene.lights.choose(Vec2::new(u(1), u(5))).unwrap() as usize];
+            let point = scene.lights.point_on(&scene, light, Vec2::new(u(3), u(7)));
             let w = (point.position - hit.position).normalize();
             let from = bdpt_explorer::math::offset_ray_origin(hit.position, hit.error, hit.n_g, w);
             let to = bdpt_explorer::math::offset_ray_origin(point.position, point.error, point.n_g, -w);
-            let lit = scene.lights.list[light as usize].l_e(point.n_g, -w).max_element() > 0.0;
+            let lit = light.l_e(point.n_g, -w).max_element() > 0.0;
             assert!(!lit || !scene.visible(&bdpt_explorer::scene::Segment { from, to }), "pixel {raster} sees the lamp");
             checked += 1;
         }
@@ -95,7 +95,7 @@ fn flight_helmet_loads() {
         return;
     }
     let start = std::time::Instant::now();
-    let scene = gltf::load(&path).unwrap();
+    let scene = gltf::load(&path, &Overrides::default()).unwrap();
     println!(
         "FlightHelmet: {} triangles, {} nodes, depth {}, loaded in {:.0?}",
         scene.triangles.len(),

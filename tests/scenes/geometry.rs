@@ -1,4 +1,4 @@
-//! Transforms, normals, cameras, accessors, and what is added where the file is silent.
+//! Transforms, normals, cameras and accessors.
 
 use super::*;
 
@@ -76,7 +76,7 @@ fn cameras_look_along_minus_z_with_y_up() {
     assert_eq!(scene.in_file(b.position), [1.0, 2.0, 3.0]);
     // What is up and to the right of the axis lands up and to the right in the picture.
     let view = View::new(&scene, a, [100, 100]);
-    let raster = view.project(Vec3::new(0.1, 0.2, -1.0)).unwrap();
+    let raster = view.project(Vec3::new(0.1, 0.2, -1.0), view.position).unwrap();
     assert!(raster.x > 50.0 && raster.y < 50.0, "{raster}");
 }
 
@@ -90,32 +90,6 @@ fn unusable_cameras_are_replaced_and_named() {
     let mut glb = base();
     glb.json["cameras"][0] = json!({ "type": "orthographic", "orthographic": { "xmag": 1.0, "ymag": 1.0, "znear": 0.1, "zfar": 9.0 } });
     says(&load(&glb).notes.join(" "), &["'camera' is orthographic"]);
-}
-
-#[test]
-fn a_bare_mesh_gets_a_camera_and_a_light() {
-    for scale in [1e-3, 1.0, 1e6] {
-        let mut glb = Glb::new("bare");
-        let paint = glb.material(lambert("paint", [0.5; 3]));
-        let ball = glb.object("ball", &Shape::sphere([3.0, 1.0, -2.0], 0.5, 16, 16), paint);
-        glb.json["nodes"][ball]["scale"] = json!([scale, scale, scale]);
-        let scene = load(&glb);
-        says(&scene.notes.join(" "), &["one that frames the whole scene was added", "a large one above and behind the camera was added"]);
-        let view = View::new(&scene, &scene.cameras[0], [32, 32]);
-        let (mut hits, mut lit) = (0, 0);
-        for i in 0..32 * 32 {
-            let direction = view.direction(Vec2::new((i % 32) as f32 + 0.5, (i / 32) as f32 + 0.5));
-            let Some(hit) = scene.intersect(&Ray { origin: view.position, direction }) else { continue };
-            assert_eq!(hit.light, NONE, "the default light hides the view");
-            let light = &scene.lights.list[0];
-            let to_light = scene.point_on_triangle(light.triangle, Vec2::splat(0.3));
-            hits += 1;
-            lit += i32::from(
-                light.l_e(to_light.n_g, hit.position - to_light.position).x > 0.0 && hit.n_g.dot(to_light.position - hit.position) > 0.0,
-            );
-        }
-        assert!(hits > 200 && lit * 2 > hits, "{scale}: {hits} {lit}");
-    }
 }
 
 #[test]

@@ -3,15 +3,19 @@
 
 mod bad_input;
 mod builtins;
+mod defaults;
+mod environment;
+mod extras;
 mod geometry;
 #[path = "../common/glb.rs"]
 mod glb;
+mod lights;
 mod materials;
 #[path = "../common/skip.rs"]
 mod skip;
 
 use bdpt_explorer::math::{DVec3, Vec2, Vec3};
-use bdpt_explorer::scene::{DIELECTRIC, LAMBERT, MIRROR, NONE, Ray, Scene, THIN_DIELECTRIC, View, builtin, gltf};
+use bdpt_explorer::scene::{DIELECTRIC, LAMBERT, MIRROR, NONE, Overrides, Ray, Scene, THIN_DIELECTRIC, View, builtin, gltf};
 use glb::{Glb, Shape, emitter, glass, lambert, mirror};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -38,7 +42,7 @@ fn square(material: Value) -> Glb {
 }
 
 fn load(glb: &Glb) -> Scene {
-    gltf::load_bytes("test.glb", &glb.bytes()).unwrap()
+    gltf::load_bytes("test.glb", &glb.bytes(), &Overrides::default()).unwrap()
 }
 
 fn error(glb: &Glb) -> String {
@@ -46,7 +50,7 @@ fn error(glb: &Glb) -> String {
 }
 
 fn bytes_error(bytes: &[u8]) -> String {
-    let message = gltf::load_bytes("test.glb", bytes).unwrap_err().to_string();
+    let message = gltf::load_bytes("test.glb", bytes, &Overrides::default()).unwrap_err().to_string();
     assert!(message.starts_with("test.glb: ") && !message.contains('\n'), "{message}");
     message
 }
@@ -63,4 +67,14 @@ fn says(text: &str, parts: &[&str]) {
 fn seen(scene: &Scene) -> &bdpt_explorer::scene::Material {
     let hit = scene.intersect(&Ray { origin: (DVec3::new(0.01, 0.02, 2.0) - scene.origin).as_vec3(), direction: Vec3::NEG_Z }).unwrap();
     &scene.materials[hit.material as usize]
+}
+
+/// RFC 4648.
+fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let digits = |chunk: &[u8]| {
+        let word = chunk.iter().chain(&[0, 0]).take(3).fold(0u32, |word, &b| word << 8 | u32::from(b));
+        (0..4).map(move |i| if i <= chunk.len() { DIGITS[(word >> (18 - 6 * i) & 63) as usize] as char } else { '=' }).collect::<String>()
+    };
+    bytes.chunks(3).map(digits).collect()
 }

@@ -101,15 +101,8 @@ impl Document<'_> {
 
     /// The bytes of `count` elements of `size` bytes in a buffer view, from `offset` in it, and their distance.
     fn span(&self, what: &str, view: usize, offset: u64, count: u64, size: usize) -> Result<(&[u8], usize), String> {
-        let json = self.root.buffer_views.get(view).ok_or_else(|| format!("{what} uses buffer view {view}, which does not exist"))?;
-        let buffer = json.buffer.value();
-        let bytes = self.buffers.get(buffer).ok_or_else(|| format!("buffer view {view} uses buffer {buffer}, which does not exist"))?;
-        let begin = json.byte_offset.unwrap_or_default().0;
-        let declared = self.root.buffers.get(buffer).map_or(0, |b| b.byte_length.0);
-        let end = begin.checked_add(json.byte_length.0).filter(|&end| end <= declared && end <= bytes.len() as u64);
-        let end = end.ok_or_else(|| format!("buffer view {view} reaches beyond the end of buffer {buffer}; export the file again"))?;
-        let bytes = &bytes[begin as usize..end as usize];
-        let stride = json.byte_stride.map_or(size, |s| s.0);
+        let bytes = self.view(view).map_err(|reason| format!("{what}: {reason}"))?;
+        let stride = self.root.buffer_views.get(view).and_then(|json| json.byte_stride).map_or(size, |s| s.0);
         if stride < size {
             return Err(format!("buffer view {view} has a stride of {stride} bytes for elements of {size}; export the file again"));
         }

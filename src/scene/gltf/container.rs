@@ -5,7 +5,9 @@
 
 use super::super::SceneError;
 use ::gltf::buffer::{Data, Source};
+use ::gltf::json::extras::Extras;
 use ::gltf::json::{self, Root};
+use serde_json::{Map, Value};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -17,19 +19,21 @@ pub struct Document<'a> {
     pub root: Root,
     /// The bytes of each buffer, at least as many as it declares.
     pub buffers: Vec<Cow<'a, [u8]>>,
+    /// Where other files are looked for; `None`: nowhere.
+    folder: Option<&'a Path>,
 }
 
 impl<'a> Document<'a> {
-    /// Parses `bytes`; external buffers are looked for in `folder`, if there is one.
-    pub fn parse(file: &'a Path, bytes: &'a [u8], folder: Option<&Path>) -> Result<Self, SceneError> {
+    /// Parses `bytes`; other files are looked for in `folder`, if there is one.
+    pub fn parse(file: &'a Path, bytes: &'a [u8], folder: Option<&'a Path>) -> Result<Self, SceneError> {
         let (text, blob) = split_container(bytes).map_err(|reason| SceneError::file(file, reason))?;
         let root: Root = json::deserialize::from_slice(text).map_err(|e| SceneError::file(file, not_gltf(text, &e.to_string())))?;
         if !root.asset.version.starts_with("2.") {
             return Err(SceneError::file(file, format!("glTF version {} cannot be read; export it as glTF 2.0", root.asset.version)));
         }
-        let mut document = Self { file, root, buffers: Vec::new() };
+        let mut document = Self { file, root, buffers: Vec::new(), folder };
         for index in 0..document.root.buffers.len() {
-            let bytes = document.buffer(index, blob, folder).map_err(|reason| document.error(format!("buffer {index}"), reason))?;
+            let bytes = document.buffer(index, blob).map_err(|reason| document.error(format!("buffer {index}"), reason))?;
             document.buffers.push(bytes);
         }
         Ok(document)
@@ -40,15 +44,38 @@ impl<'a> Document<'a> {
         SceneError::element(self.file, element, reason)
     }
 
+    /// What a URI names: base64 in itself, or a file beside this one.
+    pub fn fetch(&self, uri: &str) -> Result<Vec<u8>, String> {
+        if uri.starts_with("data:") {
+            let data = Data::from_source(Source::Uri(uri), None);
+            return Ok(data.map_err(|e| format!("its data URI is not base64 ({e}); export the file again"))?.0);
+        }
+        external(uri, self.folder)
+    }
+
+    /// The bytes of a buffer view.
+    pub fn view(&self, index: usize) -> Result<&[u8], String> {
+        let json = self.root.buffer_views.get(index).ok_or_else(|| format!("buffer view {index} does not exist; export the file again"))?;
+        let buffer = json.buffer.value();
+        let bytes = self.buffers.get(buffer).ok_or_else(|| format!("buffer view {index} uses buffer {buffer}, which does not exist"))?;
+        let begin = json.byte_offset.unwrap_or_default().0;
+        let declared = self.root.buffers.get(buffer).map_or(0, |b| b.byte_length.0);
+        let end = begin.checked_add(json.byte_length.0).filter(|&end| end <= declared && end <= bytes.len() as u64);
+        let end = end.ok_or_else(|| format!("buffer view {index} reaches beyond the end of buffer {buffer}; export the file again"))?;
+        Ok(&bytes[begin as usize..end as usize])
+    }
+
+    /// The members of an `extras` object; none if it is absent or something else.
+    pub fn members(extras: &Extras) -> Result<Map<String, Value>, String> {
+        let Some(text) = extras.as_ref().map(|raw| raw.get()).filter(|text| text.starts_with('{')) else { return Ok(Map::new()) };
+        serde_json::from_str(text).map_err(|e| format!("its extras are not valid JSON ({e}); repair them"))
+    }
+
     /// The contents of one buffer.
-    fn buffer(&self, index: usize, blob: Option<&'a [u8]>, folder: Option<&Path>) -> Result<Cow<'a, [u8]>, String> {
+    fn buffer(&self, index: usize, blob: Option<&'a [u8]>) -> Result<Cow<'a, [u8]>, String> {
         let buffer = &self.root.buffers[index];
         let bytes: Cow<[u8]> = match (&buffer.uri, blob) {
-            (Some(uri), _) if uri.starts_with("data:") => {
-                let data = Data::from_source(Source::Uri(uri), None);
-                Cow::Owned(data.map_err(|e| format!("its data URI is not base64 ({e}); export the file again"))?.0)
-            }
-            (Some(uri), _) => Cow::Owned(external(uri, folder)?),
+            (Some(uri), _) => Cow::Owned(self.fetch(uri)?),
             (None, Some(blob)) if index == 0 => Cow::Borrowed(blob),
             (None, _) => return Err("it names no file and the container holds no data for it; export the file again".into()),
         };
@@ -101,7 +128,7 @@ fn not_gltf(text: &[u8], parser: &str) -> String {
     }
 }
 
-/// Reads an external buffer.
+/// Reads another file.
 fn external(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
     let scheme = uri.split_once(':').map(|(scheme, _)| scheme).filter(|s| s.len() > 1 && s.chars().all(char::is_alphanumeric));
     if let Some(scheme) = scheme {

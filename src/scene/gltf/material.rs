@@ -9,6 +9,7 @@
 //!
 //! Emission = emissive factor × `KHR_materials_emissive_strength`, W m⁻² sr⁻¹, from the front face only unless `doubleSided`.
 
+use super::super::environment::MAX_RADIANCE;
 use super::super::{Material, SceneError};
 use super::container::Document;
 use super::nodes::label;
@@ -127,8 +128,8 @@ impl<'a> Materials<'a> {
     fn emission(&mut self, json: &Json, name: &str) -> Result<Vec3, String> {
         let strength = json.extensions.as_ref().and_then(|e| e.emissive_strength.as_ref()).map_or(1.0, |e| e.emissive_strength.0);
         let emission = Vec3::from_array(json.emissive_factor.0) * strength;
-        if !emission.is_finite() {
-            return Err("its emission is not finite; repair the material and export it again".into());
+        if !(emission.is_finite() && emission.max_element() <= MAX_RADIANCE) {
+            return Err(format!("its emission is not finite or above {MAX_RADIANCE:.0e}; repair the material and export it again"));
         }
         if emission.min_element() < 0.0 {
             self.remark("Negative emission was set to 0", name);

@@ -3,6 +3,7 @@
 use super::super::SceneError;
 use super::super::assemble::PartCamera;
 use super::container::Document;
+use super::extras;
 use crate::math::{DMat4, DVec3};
 use ::gltf::json::scene::Node;
 use glam::DQuat;
@@ -112,12 +113,10 @@ pub fn cameras(document: &Document, placed: &[Placed], notes: &mut Vec<String>) 
         } else if axis.normalize_or_zero().cross(up.normalize_or_zero()).length_squared() < 1e-12 {
             notes.push(format!("The camera '{name}' has a degenerate transform and was ignored."));
         } else {
-            if json.extras.as_ref().is_some_and(|extras| extras.get().contains("lensRadius")) {
-                notes.push(format!("The lens of the camera '{name}' was ignored: it is treated as a pinhole."));
-            }
+            let (lens_radius, focus_distance) = extras::lens(document, index, json)?;
             let copies = list.iter().filter(|other| other.name == name || other.name.starts_with(&format!("{name} ("))).count();
             let name = if copies == 0 { name } else { format!("{name} ({})", copies + 1) };
-            list.push(PartCamera { name, position: axes.w_axis.truncate(), axis, up, yfov, ..PartCamera::default() });
+            list.push(PartCamera { name, position: axes.w_axis.truncate(), axis, up, yfov, lens_radius, focus_distance });
         }
     }
     Ok(list)
