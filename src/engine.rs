@@ -65,6 +65,10 @@ pub struct Stats {
     pub peak_memory_bytes: u64,
     /// The scene's features in use.
     pub features: Vec<String>,
+    /// Radius of the lens, m; 0 is a pinhole.
+    pub lens_radius: f32,
+    /// The shortest kinds of paths that no strategy in use can make: their light is missing.
+    pub lost_paths: Vec<String>,
 }
 
 /// A rendering in progress, driven by its caller (the command line, a test, the window's thread).
@@ -211,6 +215,8 @@ impl Session {
             saturated: self.counts.saturated,
             peak_memory_bytes: peak_memory().unwrap_or(film_bytes),
             features: self.job.scene.features.names().into_iter().map(str::to_owned).collect(),
+            lens_radius: self.job.lens().radius,
+            lost_paths: self.job.existence().lost_paths(&self.job.settings),
         }
     }
 }

@@ -34,7 +34,19 @@ pub fn prepare(args: &EstimatorArgs, hide: bool) -> Result<Prepared, Failure> {
         ..Settings::default()
     };
     let hide = hide && existence.active(&settings).count() > shown.len();
+    say_what_is_lost(existence, &settings);
     Ok(Prepared { job: Job { settings, weighted_layers: hide, ..job }, shown, hide })
+}
+
+/// Light that no strategy in use can bring is missing from the picture: that must be known.
+pub fn say_what_is_lost(existence: Existence, settings: &Settings) {
+    let lost = existence.lost_paths(settings);
+    if !lost.is_empty() {
+        eprintln!(
+            "note: no strategy in use can make paths such as {}, so their light is missing (L a light, L₀ one without extent, D a surface that can be connected to, S⁺ mirrors or glass, E the lens)",
+            lost.join(", ")
+        );
+    }
 }
 
 /// Opens a scene and says what its loader had to say.

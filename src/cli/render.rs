@@ -1,7 +1,7 @@
 //! `render`: from a job to files. Also what happens where no window can be opened.
 
 use super::args::RenderArgs;
-use super::job::{Prepared, open, prepare};
+use super::job::{Prepared, open, prepare, say_what_is_lost};
 use super::progress::{self, Limit};
 use super::{Failure, print};
 use crate::bdpt::{HeuristicKind, Strategy, StrategySet};
@@ -61,6 +61,7 @@ pub fn without_window(why: &str, scene: &str) -> Result<(), Failure> {
     let stem = Path::new(&scene.name).file_stem().unwrap_or("scene".as_ref()).to_string_lossy().into_owned();
     let job = Job { weighted_layers: true, ..Job::new(scene) };
     let shown = job.existence().active(&job.settings).collect();
+    say_what_is_lost(job.existence(), &job.settings);
     create_folder(folder)?;
     let [png, exr] = ["png", "exr"].map(|extension| folder.join(format!("{stem}.{extension}")));
     check_writable(&png)?;

@@ -27,11 +27,33 @@ pub fn wide_lens() -> Arc<Scene> {
 
 /// The closed furnace, seen through a lens a quarter as wide as the room: paths of k edges still carry exactly L_e ρ^(k−1).
 pub fn furnace_with_lens(radiance: f32, albedo: f32) -> Arc<Scene> {
+    furnace_with_lens_at(radiance, albedo, 1.0, 0.0)
+}
+
+/// The same, scaled, and then moved along all axes (m).
+pub fn furnace_with_lens_at(radiance: f32, albedo: f32, scale: f64, offset: f64) -> Arc<Scene> {
+    let at = |p: [f64; 3]| p.map(|c| c * scale + offset);
     let mut room = Room::new("furnace with a lens");
     let m = room.emitter(radiance, albedo, false);
-    room.cuboid([-1.0; 3], [1.0, 1.2, 1.4], true, [m; 6]);
-    room.camera([0.1, 0.2, 0.3], [1.0, 0.3, -0.4], 80.0);
-    room.lens(0.5, 0.8);
+    room.cuboid(at([-1.0; 3]), at([1.0, 1.2, 1.4]), true, [m; 6]);
+    room.camera(at([0.1, 0.2, 0.3]), at([1.0, 0.3, -0.4]), 80.0);
+    room.lens(0.5 * scale, 0.8 * scale);
+    room.build()
+}
+
+/// A glass ball and a white one under a sky and a spot, scaled and moved.
+pub fn sky_at(scale: f64, offset: f64) -> Arc<Scene> {
+    let at = |p: [f64; 3]| p.map(|c| c * scale + offset);
+    let mut room = Room::new("sky");
+    let white = room.material(Material::lambert(Vec3::splat(0.7)));
+    room.quad(at([-1.0, -0.5, -1.0]), [0.0, 0.0, 2.0 * scale], [2.0 * scale, 0.0, 0.0], white);
+    room.sphere(at([-0.3, 0.0, 0.0]), 0.4 * scale, 12, false, white);
+    room.camera(at([0.0, 0.6, 2.0]), at([0.0, -0.2, 0.0]), 50.0);
+    room.lens(0.2 * scale, 2.0 * scale);
+    room.environment(sky_map(0.0));
+    let i = (scale * scale) as f32;
+    room.spot(at([0.8, 1.0, 0.5]), [-0.8, -1.3, -0.5], Vec3::splat(2.0 * i), [15.0, 30.0]);
+    room.directional([0.2, -1.0, -0.4], Vec3::splat(0.5));
     room.build()
 }
 

@@ -1,8 +1,8 @@
 //! Rung 7: hard cases by name.
 
 use crate::images::{job, mean, mean_over_seeds, rendered};
-use crate::scenes;
 use crate::stats::{z_between, z_limit};
+use crate::{emitters_scenes, scenes};
 use bdpt_explorer::bdpt::{Reason, Settings, Strategy, StrategySet};
 use bdpt_explorer::engine::{Job, record};
 use bdpt_explorer::math::Vec3;
@@ -19,6 +19,33 @@ fn scale_and_offset_do_not_matter() {
         println!("scale {scale:e} offset {offset:e}: {mean:.4} of {exact:.4}");
         assert!((mean / exact - 1.0).abs() < 0.01, "scale {scale:e} offset {offset:e}: {mean} instead of {exact}");
     }
+}
+
+/// Nor does the picture of lenses and of light from infinity: the same random numbers make the same image at every size (point
+/// intensities grow with the square of it).
+#[test]
+fn scale_and_offset_do_not_matter_to_lenses_and_skies() {
+    let settings = Settings { max_edges: 4, ..Settings::default() };
+    let exact = 2.0 * (1.0 - 0.6f64.powi(4)) / 0.4;
+    let image = |scale, offset| rendered(job(&emitters_scenes::sky_at(scale, offset), [24, 24], settings), 16).image();
+    let reference = image(1.0, 0.0);
+    for (scale, offset) in [(1e-3, 0.0), (1e6, 0.0), (1.0, 1e6), (1e-3, 1e3)] {
+        let session = rendered(job(&emitters_scenes::furnace_with_lens_at(2.0, 0.6, scale, offset), [32, 32], settings), 24);
+        let mean = mean(&session.image());
+        println!("furnace with a lens, scale {scale:e} offset {offset:e}: {mean:.4} of {exact:.4}");
+        assert!((mean / exact - 1.0).abs() < 0.01, "scale {scale:e} offset {offset:e}: {mean} instead of {exact}");
+        // A rounded coordinate may turn one decision: most pixels are the same, not all.
+        let mut off: Vec<f32> = image(scale, offset).iter().zip(&reference).map(|(a, b)| (*a - *b).abs().max_element()).collect();
+        off.sort_by(f32::total_cmp);
+        assert!(
+            off[off.len() * 9 / 10] < 1e-3,
+            "scale {scale:e} offset {offset:e}: a tenth of the pixels differ by {}",
+            off[off.len() * 9 / 10]
+        );
+    }
+    // Negative control: other random numbers make another image.
+    let other = rendered(job(&emitters_scenes::sky_at(1.0, 0.0), [24, 24], Settings { seed: 1, ..settings }), 16).image();
+    assert!(other.iter().zip(&reference).filter(|(a, b)| (**a - **b).abs().max_element() > 1e-3).count() > 24 * 24 / 2);
 }
 
 #[test]

@@ -169,16 +169,17 @@ fn the_image_is_the_sum_of_its_layers() {
 /// A crop, and tiles put together, are bit for bit what the full image has there.
 #[test]
 fn crops_and_tiles_are_the_full_image() {
-    let scene = scenes::builtin("cornell-spheres");
-    let base = job(&scene, [40, 32], Settings { max_edges: 5, ..Settings::default() });
-    let full = rendered(base.clone(), 3).image();
-    let tiles = [(0, 0, 13, 32), (13, 0, 27, 10), (13, 10, 27, 22)];
-    for (x, y, width, height) in tiles {
-        let crop = Crop { x, y, width, height };
-        let image = rendered(Job { crop: Some(crop), ..base.clone() }, 3).image();
-        for (i, (cropped, whole)) in image.iter().zip(&full).enumerate() {
-            let pixel = [i as u32 % 40, i as u32 / 40];
-            assert_eq!(*cropped, if crop.contains(pixel) { *whole } else { Vec3::ZERO }, "pixel {pixel:?} of the tile {crop:?}");
+    for scene in [scenes::builtin("cornell-spheres"), emitters_scenes::everything()] {
+        let base = job(&scene, [40, 32], Settings { max_edges: 5, ..Settings::default() });
+        let full = rendered(base.clone(), 3).image();
+        let tiles = [(0, 0, 13, 32), (13, 0, 27, 10), (13, 10, 27, 22)];
+        for (x, y, width, height) in tiles {
+            let crop = Crop { x, y, width, height };
+            let image = rendered(Job { crop: Some(crop), ..base.clone() }, 3).image();
+            for (i, (cropped, whole)) in image.iter().zip(&full).enumerate() {
+                let pixel = [i as u32 % 40, i as u32 / 40];
+                assert_eq!(*cropped, if crop.contains(pixel) { *whole } else { Vec3::ZERO }, "pixel {pixel:?} of the tile {crop:?}");
+            }
         }
     }
 }
@@ -207,21 +208,31 @@ fn the_image_depends_on_the_seed_and_not_on_the_threads_or_the_steps() {
 /// in the pixel, and the splats of all records make the rest.
 #[test]
 fn records_add_up_to_the_image() {
-    let scene = scenes::builtin("cornell-spheres");
-    let job = job(&scene, [16, 12], Settings { max_edges: 4, seed: 9, ..Settings::default() });
+    let mut on_lens = 0;
+    for scene in [scenes::builtin("cornell-spheres"), emitters_scenes::furnace_with_lens(1.0, 0.7), emitters_scenes::everything()] {
+        on_lens += add_up(&scene);
+    }
+    assert!(on_lens >= 5, "{on_lens} contributions of t = 0 are too few to mean anything");
+}
+
+/// Holds one sample's image against the sum of all its records; returns how many of their entries were of t = 0.
+fn add_up(scene: &Arc<Scene>) -> usize {
+    let job = job(scene, [16, 12], Settings { max_edges: 4, seed: 9, ..Settings::default() });
     let image = rendered(job.clone(), 1).image();
-    let mut sum = vec![Vec3::ZERO; image.len()];
+    let (mut sum, mut on_lens) = (vec![Vec3::ZERO; image.len()], 0);
     for y in 0..12 {
         for x in 0..16 {
             let record = bdpt_explorer::engine::record(&job, [x, y], 0).unwrap();
             for strategy in record.strategies.iter().filter(|s| s.feasible) {
                 let [px, py] = strategy.raster.unwrap().map(|r| r as usize);
                 assert!(strategy.t <= 1 || (px, py) == (x as usize, y as usize));
+                on_lens += usize::from(strategy.t == 0);
                 sum[py * 16 + px] += Vec3::from(strategy.contribution);
             }
         }
     }
     for (i, (a, b)) in image.iter().zip(&sum).enumerate() {
-        assert!((*a - *b).abs().max_element() <= 1e-6 * a.max_element().max(1.0), "pixel {i}: {a} {b}");
+        assert!((*a - *b).abs().max_element() <= 1e-6 * a.max_element().max(1.0), "{}, pixel {i}: {a} {b}", scene.name);
     }
+    on_lens
 }

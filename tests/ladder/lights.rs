@@ -251,3 +251,33 @@ fn ten_thousand_emitters_are_chosen_as_often_as_their_power_says() {
     let off: Vec<f64> = stated.iter().enumerate().map(|(i, e)| e * if i % 100 == 0 { 1.5 } else { 0.995 }).collect();
     assert!(chi_squared(&observed, &off) < LEVEL);
 }
+
+/// Samples per second with ten emitters, and with ten thousand, among the same triangles.
+#[test]
+#[ignore = "a measurement"]
+fn many_emitters_cost_no_more_than_few() {
+    use crate::images::{job, rendered};
+    use bdpt_explorer::bdpt::Settings;
+    let scene = |emitters: usize| {
+        let mut room = crate::scenes::Room::new("many emitters");
+        let white = room.material(bdpt_explorer::scene::Material::lambert(Vec3::splat(0.7)));
+        let (lamp, dark) = (room.emitter(10.0, 0.5, false), room.material(bdpt_explorer::scene::Material::lambert(Vec3::splat(0.5))));
+        room.cuboid([-1.0; 3], [1.0; 3], true, [white; 6]);
+        for i in 0..5000 {
+            let (x, z) = (f64::from(i % 100) / 100.0 - 0.5, f64::from(i / 100) / 50.0 - 0.5);
+            let material = if i as usize % (10_000 / emitters) == 0 { lamp } else { dark };
+            room.quad([x, 0.95, z], [0.008, 0.0, 0.0], [0.0, 0.0, 0.015], material);
+        }
+        room.camera([0.0, 0.0, 0.95], [0.0, -0.1, -1.0], 70.0);
+        room.build()
+    };
+    let (few, many) = (scene(10), scene(10_000));
+    assert_eq!((few.lights.list.len(), many.lights.list.len()), (10, 10_000));
+    let seconds = |scene: &std::sync::Arc<bdpt_explorer::scene::Scene>| {
+        let settings = Settings { max_edges: 6, roulette: false, ..Settings::default() };
+        rendered(job(scene, [128, 128], settings), 4).stats().cpu_seconds
+    };
+    let mut ratios: Vec<f64> = (0..11).map(|_| seconds(&many) / seconds(&few)).collect();
+    ratios.sort_by(f64::total_cmp);
+    println!("10 000 emitters against 10: {:.3} of the time ({:.3} to {:.3})", ratios[5], ratios[0], ratios[10]);
+}

@@ -21,7 +21,6 @@ from scene import interpolated, load, to_mitsuba
 from scenes import SCENES, Glb, cube, looking, sky, write_hdr
 
 RHO = [0.8, 0.5, 0.2]
-GREY = [0.5, 0.5, 0.5]
 # A floor of 20 m, which a path meets once.
 FLOOR = [[[-10, 0, 10], [10, 0, 10], [10, 0, -10], [-10, 0, -10]]]
 # The square from −1 to 1 in the plane z = 0, facing +Z.
@@ -235,7 +234,7 @@ class ClosedForms(Scenes):
         """Also where a mirrored node turns the mesh inside out twice over."""
         for scale, back in ((1, False), (1, True), (-1, False), (-1, True)):
             glb = Glb()
-            glb.node(mesh=glb.mesh(SQUARE, glb.material(GREY, [2, 2, 2])), scale=[scale, 1, 1])
+            glb.node(mesh=glb.mesh(SQUARE, glb.material(RHO, [2, 2, 2])), scale=[scale, 1, 1])
             glb.camera([0, 0, -5 if back else 5], [0, 0, 0], 0.1)
             self.near(self.render(glb), 0.0 if back else 2.0)
 
@@ -315,13 +314,8 @@ class Lattice(unittest.TestCase):
         for i in range(20):
             for j in range(20):
                 phi, theta = 2 * math.pi * (u[i] - 0.5), math.pi * v[j]
-                d = np.array(
-                    [
-                        math.sin(phi) * math.sin(theta),
-                        math.cos(theta),
-                        -math.cos(phi) * math.sin(theta),
-                    ]
-                )
+                sin = math.sin(theta)
+                d = np.array([math.sin(phi) * sin, math.cos(theta), -math.cos(phi) * sin])
                 np.testing.assert_allclose(found[j, i], looked_up(texels, d, 0.0), atol=1e-6)
 
 
