@@ -59,11 +59,12 @@ impl Absence {
 impl Existence {
     /// What exists in `scene`, seen through a lens or a pinhole.
     pub fn of(scene: &Scene, lens: bool) -> Self {
+        let features = &scene.features;
         Self {
-            lights_to_hit: scene.lights.any_can_be_hit(),
-            dirac_lights: scene.lights.list.iter().any(crate::scene::light::Light::is_dirac),
-            diffuse: scene.features.diffuse,
-            dirac_surfaces: scene.features.dirac_surfaces(),
+            lights_to_hit: features.area_lights || features.environment,
+            dirac_lights: features.point_lights || features.spot_lights || features.directional_lights,
+            diffuse: features.diffuse,
+            dirac_surfaces: features.dirac_surfaces(),
             lens,
         }
     }

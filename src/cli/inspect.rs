@@ -85,10 +85,12 @@ fn vertex_row(name: String, vertex: &VertexRecord) -> Vec<String> {
     let [x, y, z] = vertex.position;
     let model = vertex.model.map(|model| format!(" ({model})")).unwrap_or_default();
     let material = vertex.material.as_ref().map_or("–".to_owned(), |name| format!("{name}{model}"));
-    let on = match (vertex.emitter && vertex.kind != "light", vertex.delta) {
-        (true, _) => format!("{}, emits", vertex.kind),
-        (false, true) => format!("{}, Dirac", vertex.kind),
-        (false, false) => vertex.kind.to_owned(),
+    let on = match (vertex.light, &vertex.light_name) {
+        (Some(light), Some(name)) => format!("{light} '{name}'"),
+        (Some("area"), None) => if vertex.kind == "light" { "area light" } else { "surface, emits" }.to_owned(),
+        (Some(light), None) => light.to_owned(),
+        (None, _) if vertex.delta => format!("{}, Dirac", vertex.kind),
+        (None, _) => vertex.kind.to_owned(),
     };
     let unit = match vertex.measure {
         Measure::Area => "m⁻²",

@@ -273,11 +273,6 @@ impl Lights {
         self.names.get((light as usize).checked_sub(first)?).map(String::as_str)
     }
 
-    /// Is there a light that an eye path can hit?
-    pub fn any_can_be_hit(&self) -> bool {
-        self.list.iter().any(|light| !light.is_dirac())
-    }
-
     /// Chooses a light; `None` if there is none.
     #[inline]
     pub fn choose(&self, u: Vec2) -> Option<u32> {
