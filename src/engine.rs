@@ -7,15 +7,15 @@ use crate::bdpt::walk::Context;
 use crate::bdpt::{PathRecord, Strategy, StrategySet};
 use crate::film::Film;
 pub use crate::film::Rect as Crop;
-use crate::math::Vec3;
-use crate::scene::View;
+use crate::math::{Vec2, Vec3};
+use crate::scene::{Ray, View};
 use serde::Serialize;
 use std::time::Duration;
 use web_time::Instant;
 
 mod job;
 mod thread;
-pub use job::{FILM_BUDGET, Job, JobError, MAX_SIDE};
+pub use job::{FILM_BUDGET, Job, JobError, MAX_LENS, MAX_SIDE};
 pub use thread::{Engine, Frame, Thumbnail};
 
 /// Re-runs one sample of one pixel: the very path the renderer used. Takes well under a millisecond.
@@ -28,6 +28,17 @@ pub fn record(job: &Job, pixel: [u32; 2], sample: u32) -> Result<PathRecord, Job
     }
     let view = job.view();
     Ok(record_sample(&Context { scene: &job.scene, view: &view, settings: &job.settings }, pixel, sample))
+}
+
+/// How far away, along the axis, what a pixel shows is: the first hit of the ray from the middle of the lens through the
+/// pixel's centre. `None` if there is nothing, or no such pixel.
+pub fn focus_distance_at(job: &Job, pixel: [u32; 2]) -> Option<f32> {
+    let view = job.view();
+    let raster = Vec2::new(pixel[0] as f32 + 0.5, pixel[1] as f32 + 0.5);
+    view.pixel(raster)?;
+    let ray = Ray { origin: view.position, direction: view.direction(raster, view.position) };
+    let seen = job.scene.intersect(&ray)?;
+    Some((seen.position - view.position).dot(view.axis)).filter(|distance| *distance > 0.0)
 }
 
 /// Counts and times of a session; `--stats` writes it.

@@ -4,23 +4,33 @@
 use bdpt_explorer::bdpt::{HeuristicKind, Strategy};
 use bdpt_explorer::engine::{self, Frame};
 use bdpt_explorer::math::Vec3;
-use bdpt_explorer::scene::builtin;
+use bdpt_explorer::scene::{Scene, builtin};
 use bdpt_explorer::ui::keys::TABLE;
+use bdpt_explorer::ui::state::Opening;
 use bdpt_explorer::ui::text::{Lang, Text};
 use bdpt_explorer::ui::{App, SceneSource, Start};
 use eframe::egui::{self, Key, Modifiers, PointerButton, Pos2, Role};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use egui_kittest::wgpu::WgpuTestRenderer;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+#[path = "ui/existence.rs"]
+mod existence;
 #[path = "ui/layout.rs"]
 mod layout;
+#[path = "ui/lens.rs"]
+mod lens;
 #[path = "ui/measure.rs"]
 mod measure;
+#[path = "ui/scenes.rs"]
+mod scenes;
+#[path = "ui/screenshots.rs"]
+mod screenshots;
 #[path = "common/skip.rs"]
 mod skip;
+#[path = "ui/surroundings.rs"]
+mod surroundings;
 
 const SIZE: [u32; 2] = [64, 64];
 
@@ -34,8 +44,12 @@ fn start(source: SceneSource) -> Harness<'static, App> {
 
 /// The window on the Cornell box, with its first frame.
 fn cornell() -> Harness<'static, App> {
-    let scene = builtin::open("cornell").expect("a built-in scene opens");
-    let mut window = start(SceneSource::Ready(Arc::new(scene)));
+    showing(Arc::new(builtin::open("cornell").expect("a built-in scene opens")))
+}
+
+/// The window on a scene, with its first frame.
+fn showing(scene: Arc<Scene>) -> Harness<'static, App> {
+    let mut window = start(SceneSource::Ready(scene));
     until(&mut window, "a first frame", |app| app.live().frame().is_some() && app.live().record(app.state()).is_some());
     window
 }
@@ -81,6 +95,24 @@ fn type_number(window: &mut Harness<'static, App>, label: &str, number: &str) {
     window.run_steps(1);
     window.key_press(Key::Enter);
     window.run_steps(3);
+}
+
+/// A file that is dropped on the window.
+#[derive(Debug)]
+struct Dropped(std::path::PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &std::path::Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+fn drop_file(window: &mut Harness<'static, App>, path: impl Into<std::path::PathBuf>) {
+    window.input_mut().dropped_files.push(Arc::new(Dropped(path.into())));
 }
 
 fn energy(frame: &Frame) -> f32 {
@@ -284,7 +316,7 @@ fn the_language_can_be_switched() {
 #[test]
 fn a_scene_that_does_not_load_is_explained_and_the_old_one_stays() {
     let mut window = cornell();
-    window.state_mut().state_mut().open_scene = Some("no-such-file.glb".to_owned());
+    window.state_mut().state_mut().open = Some(Opening::of("no-such-file.glb"));
     until(&mut window, "the error", |app| app.state().messages.iter().any(|m| m.error));
     window.run_steps(2);
     assert!(window.query_by_label_contains("no-such-file.glb").is_some());
@@ -296,17 +328,7 @@ fn a_scene_that_does_not_load_is_explained_and_the_old_one_stays() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("dropped.glb");
     std::fs::write(&path, bytes).expect("a file");
-    #[derive(Debug)]
-    struct Dropped(std::path::PathBuf);
-    impl egui::DroppedFile for Dropped {
-        fn path(&self) -> &std::path::Path {
-            &self.0
-        }
-        fn bytes(&self) -> Result<Vec<u8>, String> {
-            std::fs::read(&self.0).map_err(|error| error.to_string())
-        }
-    }
-    window.input_mut().dropped_files.push(Arc::new(Dropped(path)));
+    drop_file(&mut window, path);
     until(&mut window, "the dropped scene", |app| {
         app.live().scene().is_some_and(|s| s.name != "cornell") && app.live().record(app.state()).is_some()
     });
@@ -328,40 +350,9 @@ fn everything_that_can_be_used_has_a_name() {
         click(&mut window, Role::Button, page);
         window.check_accessibility();
     }
-    for strategy in Strategy::all(6) {
+    for strategy in Strategy::all(6, false) {
         let name = format!("({},{}): hide", strategy.s, strategy.t);
         assert!(window.query_all_by_role(Role::CheckBox).any(|x| x.accesskit_node().label().is_some_and(|l| l.ends_with(&name))), "{name}");
-    }
-}
-
-/// Both themes are drawn by a graphics adapter (a software one will do); with `BDPT_SCREENSHOT_DIR` the pictures stay there.
-#[test]
-fn a_graphics_adapter_draws_the_window_in_both_themes() {
-    // Creating the renderer is what fails without an adapter.
-    let Ok(renderers) = std::panic::catch_unwind(|| [true, false].map(|dark| (dark, WgpuTestRenderer::new()))) else {
-        assert!(!skip::required("BDPT_REQUIRE_GPU"), "BDPT_REQUIRE_GPU=1, and there is no adapter");
-        skip::skipped("a_graphics_adapter_draws_the_window_in_both_themes", "there is no graphics adapter");
-        return;
-    };
-    for (dark, renderer) in renderers {
-        let scene = builtin::open("cornell").expect("a built-in scene opens");
-        let start = Start { source: SceneSource::Ready(Arc::new(scene)), size: [256, 256] };
-        let mut window = Harness::builder()
-            .with_size(egui::vec2(1440.0, 900.0))
-            .allow_missing_glyphs()
-            .renderer(renderer)
-            .build_eframe(|context| App::new(start, &context.egui_ctx, None));
-        window.state_mut().state_mut().prefs.dark = dark;
-        until(&mut window, "a picture", |app| app.live().frame().is_some_and(|f| f.stats.spp >= 2.0));
-        let image = window.render().expect("a picture of the window");
-        let colours: std::collections::HashSet<_> = image.pixels().map(|p| p.0).collect();
-        assert!(colours.len() > 1000, "the window shows {} colours", colours.len());
-        let mean = image.pixels().map(|p| u64::from(p.0[0])).sum::<u64>() / u64::from(image.width() * image.height());
-        assert!((mean < 90) == dark && (mean > 150) != dark, "mean brightness {mean}, dark: {dark}");
-        if let Ok(folder) = std::env::var("BDPT_SCREENSHOT_DIR") {
-            let name = if dark { "dark.png" } else { "light.png" };
-            image.save(std::path::Path::new(&folder).join(name)).expect("the folder can be written to");
-        }
     }
 }
 

@@ -48,7 +48,7 @@ pub struct Frame {
 }
 
 enum Command {
-    Restart(Box<Session>, u64),
+    Restart(Box<Job>, u64),
     Hide(Box<StrategySet>),
     Pause(bool),
     Stop,
@@ -81,13 +81,14 @@ impl Engine {
         Ok(Self { job, generation: 0, hidden: StrategySet::NONE, paused: false, commands, frame, thread: Some(thread) })
     }
 
-    /// Renders something else from now on. On an error the old job goes on.
+    /// Renders something else from now on. On an error the old job goes on. The new film is made by the thread: the caller,
+    /// who may be dragging a slider, does not wait for it.
     pub fn restart(&mut self, job: Job) -> Result<(), JobError> {
         let job = Job { weighted_layers: true, ..job };
-        let session = Session::new(job.clone())?;
+        job.check()?;
         self.job = job;
         self.generation += 1;
-        self.send(Command::Restart(Box::new(session), self.generation));
+        self.send(Command::Restart(Box::new(self.job.clone()), self.generation));
         Ok(())
     }
 
@@ -157,17 +158,25 @@ impl Worker {
     fn run(mut self, inbox: &Receiver<Command>) {
         let mut next_frame = Instant::now();
         loop {
-            // All commands that have come; a paused thread sleeps until one does.
-            let mut changed = false;
+            // All commands that have come; a paused thread sleeps until one does. Of several restarts only the last one counts.
+            let (mut changed, mut restart) = (false, None);
             loop {
                 let command = if self.paused && !changed { inbox.recv().map_err(|_| TryRecvError::Disconnected) } else { inbox.try_recv() };
                 match command {
                     Ok(Command::Stop) | Err(TryRecvError::Disconnected) => return,
-                    Ok(command) => changed |= self.obey(command),
+                    Ok(Command::Restart(job, generation)) => restart = Some((*job, generation)),
+                    Ok(Command::Hide(hidden)) => self.hidden = *hidden,
+                    Ok(Command::Pause(paused)) => self.paused = paused,
                     Err(TryRecvError::Empty) => break,
                 }
+                changed = true;
             }
-            if !self.paused {
+            let restarted = restart.is_some();
+            if let Some((job, generation)) = restart {
+                self.restart(job, generation);
+            }
+            // The first look at something new should not be empty, and a restart has seen to that.
+            if !self.paused && !restarted {
                 self.session.step(SLICE);
             }
             if changed || Instant::now() >= next_frame {
@@ -179,20 +188,12 @@ impl Worker {
         }
     }
 
-    /// True if the frame changes by it.
-    fn obey(&mut self, command: Command) -> bool {
-        match command {
-            Command::Restart(session, generation) => {
-                self.session = *session;
-                self.generation = generation;
-                // The first look at something new should not be empty.
-                self.session.step(SLICE);
-            }
-            Command::Hide(hidden) => self.hidden = *hidden,
-            Command::Pause(paused) => self.paused = paused,
-            Command::Stop => return false,
+    fn restart(&mut self, job: Job, generation: u64) {
+        // It was checked when it was sent.
+        if let Ok(session) = Session::new(job) {
+            (self.session, self.generation) = (session, generation);
+            self.session.step(SLICE);
         }
-        true
     }
 
     fn publish(&self) {

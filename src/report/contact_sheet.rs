@@ -193,7 +193,7 @@ mod tests {
     use super::*;
 
     /// A sheet of made-up discs; `size` is the film's.
-    fn sheet(size: [u32; 2], max_edges: u32) -> ContactSheet {
+    fn sheet(size: [u32; 2], max_edges: u32, lens: bool) -> ContactSheet {
         let disc = |strategy: Strategy| -> Vec<Vec3> {
             let (cx, cy) = (0.2 + 0.1 * strategy.s as f32, 0.2 + 0.1 * strategy.t as f32);
             let pixels = (0..size[0] * size[1]).map(|i| ((i % size[0]) as f32 / size[0] as f32, (i / size[0]) as f32 / size[1] as f32));
@@ -201,7 +201,7 @@ mod tests {
             let lit = if strategy == Strategy::new(2, 3) { 0.0 } else { 1.0 };
             pixels.map(|at| Vec3::new(1.0, 0.8, 0.5 + 0.1 * strategy.s as f32) * (lit * glow(at))).collect()
         };
-        let layers: Vec<_> = Strategy::all(max_edges, false).map(|strategy| (strategy, disc(strategy))).collect();
+        let layers: Vec<_> = Strategy::all(max_edges, lens).map(|strategy| (strategy, disc(strategy))).collect();
         let image: Vec<Vec3> = (0..layers[0].1.len()).map(|i| layers.iter().map(|(_, layer)| layer[i]).sum()).collect();
         let details = "512×512 · 64 spp · K = 6 · power heuristic, β = 2 · seed 0".to_owned();
         let heading = Heading { title: "cornell".to_owned(), details, exposure_ev: 0.0, tonemap: ToneMap::Srgb };
@@ -212,8 +212,10 @@ mod tests {
 
     #[test]
     fn a_sheet_has_a_row_per_length_and_a_cell_per_strategy() {
-        let sheet = sheet([60, 40], 6);
-        assert_eq!(sheet.rows().iter().map(Vec::len).collect::<Vec<_>>(), [2, 3, 4, 5, 6, 7]);
+        let cells = |lens: bool| sheet([60, 40], 6, lens).rows().iter().map(Vec::len).collect::<Vec<_>>();
+        assert_eq!(cells(false), [2, 3, 4, 5, 6, 7]);
+        assert_eq!(cells(true), [3, 4, 5, 6, 7, 8], "t = 0 is the last one of its row");
+        let sheet = sheet([60, 40], 6, true);
         let canvas = sheet.draw();
         assert_eq!(canvas.rgb.len() as u32, 3 * canvas.size[0] * canvas.size[1]);
         if let Some(path) = std::env::var_os("CONTACT_SHEET") {
@@ -224,7 +226,7 @@ mod tests {
     #[test]
     fn odd_sizes_draw() {
         for (size, max_edges) in [([1, 1], 1), ([1, 300], 2), ([300, 1], 3), ([3, 2], 20)] {
-            sheet(size, max_edges).draw();
+            sheet(size, max_edges, true).draw();
         }
     }
 

@@ -2,9 +2,9 @@
 
 use super::live::{Live, SceneSource};
 use super::pictures::Pictures;
-use super::state::{Maximised, Preferences, State};
+use super::state::{Maximised, Opening, Preferences, State};
 use super::text::{Text, fill};
-use super::{help, image_view, inspector, keys, messages, pyramid, status_bar, theme, top_bar};
+use super::{help, image_view, inspector, keys, messages, pyramid, scene_menu, status_bar, theme, top_bar};
 use eframe::egui::{self, Align2, CentralPanel, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
 use web_time::Instant;
 
@@ -111,12 +111,15 @@ impl App {
     fn drops(&mut self, ui: &Ui) {
         for file in ui.input(|input| input.raw.dropped_files.clone()) {
             let path = file.path();
-            let known = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("glb") || end.eq_ignore_ascii_case("gltf"));
             let name = path.display().to_string();
-            if known {
-                self.state.open_scene = Some(name);
-            } else {
-                self.state.tell(true, fill(self.state.say(Text::NotAScene), &[&name]));
+            match path.extension().and_then(|end| end.to_str()).map(str::to_ascii_lowercase).as_deref() {
+                Some("glb" | "gltf") => {
+                    // An environment dropped together with it lights it.
+                    let environment = self.state.open.take().and_then(|opening| opening.environment);
+                    self.state.open = Some(Opening { scene: name, environment });
+                }
+                Some("hdr" | "exr") => scene_menu::surround(&mut self.state, &self.live, path),
+                _ => self.state.tell(true, fill(self.state.say(Text::NotAScene), &[&name])),
             }
         }
         if ui.input(|input| !input.raw.hovered_files.is_empty()) {

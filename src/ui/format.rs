@@ -1,5 +1,6 @@
 //! How numbers are written, the same everywhere.
 
+use super::text::{Lang, Text};
 use crate::bdpt::record::Measure;
 
 /// Four digits: "0.03142"; scientific where that would be long: "3.142e-4". Zero is "0".
@@ -49,11 +50,11 @@ pub fn percent(value: f64) -> String {
 }
 
 /// The unit of a density.
-pub fn unit(measure: Measure) -> &'static str {
+pub fn unit(measure: Measure, lang: Lang) -> &'static str {
     match measure {
         Measure::Area => "m⁻²",
         Measure::SolidAngle => "sr⁻¹",
-        Measure::Discrete => "(discrete)",
+        Measure::Discrete => Text::Probability.in_language(lang),
     }
 }
 
@@ -64,8 +65,11 @@ pub fn indexed(name: char, index: usize) -> String {
     std::iter::once(name).chain(low).collect()
 }
 
-/// The name of a light point drawn for one connection alone (the built-in fonts have no prime).
-pub const FRESH: &str = "y₀'";
+/// The name of a light end drawn for one connection alone (the built-in fonts have no prime).
+pub const FRESH_LIGHT: &str = "y₀'";
+
+/// The same of the lens.
+pub const FRESH_LENS: &str = "z₀'";
 
 /// The brightness of a colour as one number (Rec. 709 luminance).
 pub fn luminance(rgb: [f32; 3]) -> f32 {

@@ -24,7 +24,9 @@ pub fn show(ctx: &egui::Context, state: &mut State) {
                 }
             });
             ui.add_space(8.0);
-            ui.label(RichText::new(state.say(Text::HelpMouse)).weak());
+            for text in [Text::HelpMouse, Text::HelpLensDrawing, Text::Letters] {
+                ui.label(RichText::new(state.say(text)).weak());
+            }
         });
     state.help = open;
 }

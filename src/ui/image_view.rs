@@ -1,5 +1,6 @@
 //! The progressive image: zoom around the cursor, pan, pick a pixel, crosshair. A click is a press and release without a drag.
 
+use super::camera_bar;
 use super::keys::{self, Action};
 use super::live::Live;
 use super::overlay;
@@ -11,8 +12,8 @@ use super::theme;
 use super::widgets::labelled;
 use crate::film::tonemap::ToneMap;
 use eframe::egui::{
-    self, Button, Color32, ComboBox, CornerRadius, DragValue, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo,
-    pos2, vec2,
+    self, Button, Color32, ComboBox, CornerRadius, DragValue, Label, Pos2, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui,
+    Vec2, WidgetInfo, pos2, vec2,
 };
 
 /// The image's widget, for the keyboard.
@@ -23,6 +24,10 @@ pub fn id() -> egui::Id {
 /// Shows the toolbar and the image. Returns where the film is on the screen.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures) -> Rect {
     ui.horizontal_wrapped(|ui| toolbar(ui, state));
+    if state.prefs.camera_open {
+        camera_bar::show(ui, state, live);
+    }
+    lost_paths(ui, state, live);
     ui.add_space(2.0);
     let panel = ui.available_rect_before_wrap();
     ui.advance_cursor_after_rect(panel);
@@ -49,14 +54,45 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
     }
     crosshair(&painter, state, image);
     if let Some(scene) = live.scene()
-        && let Some(projector) = Projector::new(scene, state.size, image, panel)
+        && let Some(projector) = Projector::new(scene, state.camera, state.size, [image, panel])
     {
         overlay::show(ui, &painter, state, live, &projector);
+    }
+    if state.picking_focus {
+        invite_to_focus(ui, &painter, state, panel);
     }
     if response.has_focus() {
         painter.rect_stroke(panel, CornerRadius::ZERO, Stroke::new(2.0, theme::SELECTED), StrokeKind::Inside);
     }
     image
+}
+
+/// What light is missing, because no strategy can bring it.
+fn lost_paths(ui: &mut Ui, state: &State, live: &Live) {
+    if live.lost().is_empty() {
+        return;
+    }
+    let words = fill(state.say(Text::LostPaths), &[&live.lost().join(", ")]);
+    let help = format!("{}\n{}", state.say(Text::Letters), state.say(Text::HelpLostPaths));
+    ui.horizontal(|ui| {
+        let colour = ui.visuals().warn_fg_color;
+        ui.label(RichText::new("⚠").color(colour)).on_hover_text(help.as_str());
+        ui.add(Label::new(RichText::new(words).color(colour)).truncate()).on_hover_text(help.as_str());
+    });
+}
+
+/// While the next click focuses: says so at the top of the image, and at the pointer.
+fn invite_to_focus(ui: &Ui, painter: &egui::Painter, state: &State, panel: Rect) {
+    let words = state.say(Text::PickFocus);
+    let galley = painter.layout_no_wrap(words.to_owned(), egui::FontId::proportional(15.0), Color32::WHITE);
+    let plate = Rect::from_center_size(panel.center_top() + vec2(0.0, 22.0), galley.size() + vec2(20.0, 10.0));
+    painter.rect(plate, CornerRadius::same(6), Color32::from_black_alpha(215), Stroke::new(1.5, theme::SELECTED), StrokeKind::Inside);
+    painter.galley(plate.center() - 0.5 * galley.size(), galley, Color32::WHITE);
+    let spoken = ui.interact(plate, ui.scope_id().with("pick focus"), Sense::hover());
+    spoken.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
+    if ui.input(|input| input.pointer.hover_pos().is_some_and(|at| panel.contains(at))) {
+        ui.ctx().set_cursor_icon(egui::CursorIcon::Crosshair);
+    }
 }
 
 fn name(ui: &Ui, state: &State, response: &Response) {
@@ -90,6 +126,8 @@ fn toolbar(ui: &mut Ui, state: &mut State) {
         state.placement = Placement::Fit;
     }
     show_menu(ui, state);
+    let label = state.say(Text::Camera);
+    ui.toggle_value(&mut state.prefs.camera_open, label).on_hover_text(Text::HelpCameraRow.in_language(state.prefs.lang));
     let alone = state.maximised == Maximised::Image;
     let button = Button::new(state.say(Text::Maximise)).selected(alone);
     if ui.add(button).on_hover_text(state.say(Text::HelpMaximise)).clicked() {
@@ -158,7 +196,11 @@ fn navigate(ui: &Ui, state: &mut State, response: &Response, panel: Rect) -> Rec
     if let Some(cursor) = response.interact_pointer_pos().filter(|_| response.clicked()) {
         let at = (cursor - image.min) / zoom;
         if at.x >= 0.0 && at.y >= 0.0 && at.x < size.x && at.y < size.y {
-            state.select_pixel(at.x as i64, at.y as i64);
+            if state.picking_focus {
+                (state.picking_focus, state.focus_on) = (false, Some([at.x as u32, at.y as u32]));
+            } else {
+                state.select_pixel(at.x as i64, at.y as i64);
+            }
         }
     }
     image

@@ -27,6 +27,8 @@ pub enum Action {
     Pause,
     /// Hide or show the selected strategy.
     Hide,
+    /// Focus on the selected pixel, or on the one clicked next.
+    Focus,
     /// The list of keys.
     Help,
 }
@@ -58,6 +60,7 @@ pub const TABLE: &[Binding] = &[
     Binding { action: Action::Strategy, shown: "1 … 9", text: Text::KeyStrategy, keys: DIGITS, shift: false },
     Binding { action: Action::Vertex, shown: "Space, Shift+Space", text: Text::KeyVertex, keys: &[Key::Space], shift: true },
     Binding { action: Action::Hide, shown: "H", text: Text::KeyHide, keys: &[Key::H], shift: false },
+    Binding { action: Action::Focus, shown: "G, Shift+G", text: Text::KeyFocus, keys: &[Key::G], shift: true },
     Binding { action: Action::Exposure, shown: "E, Shift+E", text: Text::KeyExposure, keys: &[Key::E], shift: true },
     Binding { action: Action::Fit, shown: "F", text: Text::KeyFit, keys: &[Key::F], shift: false },
     Binding { action: Action::ResetView, shown: "R", text: Text::KeyReset, keys: &[Key::R], shift: false },
@@ -91,8 +94,8 @@ pub fn obey(ctx: &egui::Context, state: &mut State, image: egui::Id) {
             }
         }
     }
-    if state.help && ctx.input(|input| input.key_pressed(Key::Escape)) {
-        state.help = false;
+    if ctx.input(|input| input.key_pressed(Key::Escape)) {
+        (state.help, state.picking_focus) = (false, false);
     }
 }
 
@@ -126,7 +129,7 @@ pub fn perform(state: &mut State, action: Action, index: usize, shift: bool) {
         Action::Sample => step_sample(state, shift),
         Action::Strategy => {
             let k = state.selection.strategy.edges();
-            if (index as u32) <= k {
+            if (index as u32) <= k + 1 {
                 state.select_strategy(Strategy::new(index as u32, k + 1 - index as u32));
             }
         }
@@ -145,6 +148,8 @@ pub fn perform(state: &mut State, action: Action, index: usize, shift: bool) {
             let strategy = state.selection.strategy;
             state.hidden.set(strategy, !state.hidden.contains(strategy));
         }
+        Action::Focus if shift => state.picking_focus = !state.picking_focus,
+        Action::Focus => (state.picking_focus, state.focus_on) = (false, Some(state.selection.pixel)),
         Action::Help => state.help = !state.help,
     }
 }
@@ -189,6 +194,13 @@ mod tests {
         assert_eq!(state.selection.strategy, Strategy::new(2, 2));
         perform(&mut state, Action::Strategy, 8, false);
         assert_eq!(state.selection.strategy, Strategy::new(2, 2), "there is no ninth strategy of three edges");
+        perform(&mut state, Action::Focus, 0, false);
+        assert_eq!(state.focus_on, Some([5, 0]));
+        perform(&mut state, Action::Focus, 0, true);
+        assert!(state.picking_focus);
+        perform(&mut state, Action::Strategy, 4, false);
+        assert_eq!(state.selection.strategy, Strategy::new(4, 0), "the last one is light hits lens");
+        perform(&mut state, Action::Strategy, 2, false);
         perform(&mut state, Action::Vertex, 0, true);
         assert_eq!(state.selection.vertex, 3);
         perform(&mut state, Action::Vertex, 0, false);

@@ -1,5 +1,6 @@
 //! The legend in the image's corner: every mark's shape and colour, and what it stands for.
 
+use super::live::Live;
 use super::marks;
 use super::state::State;
 use super::text::Text;
@@ -17,15 +18,28 @@ const ROWS: &[Text] = &[
 ];
 const ROW: f32 = 19.0;
 
+/// What can be in the picture of this scene.
+fn rows(state: &State, live: &Live) -> Vec<Text> {
+    let mut rows = ROWS.to_vec();
+    if live.scene().is_some_and(|scene| scene.features.environment || scene.features.directional_lights) {
+        rows.push(Text::LegendInfinity);
+    }
+    if live.lens(state).is_some_and(|lens| lens.radius > 0.0) {
+        rows.push(Text::LegendLens);
+    }
+    rows
+}
+
 /// Draws the legend at the bottom left of `panel`, if it fits beside the image or is small against it.
-pub fn show(ui: &Ui, state: &State, panel: Rect, image: Rect) {
+pub fn show(ui: &Ui, state: &State, live: &Live, [panel, image]: [Rect; 2]) {
+    let rows = rows(state, live);
     let painter = ui.painter().with_clip_rect(panel);
     let visuals = ui.visuals();
     let font = FontId::proportional(12.5);
     let galleys: Vec<_> =
-        ROWS.iter().map(|row| painter.layout_no_wrap(state.say(*row).to_owned(), font.clone(), visuals.text_color())).collect();
+        rows.iter().map(|row| painter.layout_no_wrap(state.say(*row).to_owned(), font.clone(), visuals.text_color())).collect();
     let width = galleys.iter().map(|galley| galley.size().x).fold(0.0, f32::max) + 64.0;
-    let size = vec2(width, ROW * ROWS.len() as f32 + 10.0);
+    let size = vec2(width, ROW * rows.len() as f32 + 10.0);
     let beside = image.left() - panel.left() > size.x + 16.0;
     if size.y > panel.height() - 20.0 || (!beside && size.x * size.y > 0.12 * panel.area()) {
         return;
@@ -33,14 +47,14 @@ pub fn show(ui: &Ui, state: &State, panel: Rect, image: Rect) {
     let ground = Rect::from_min_size(pos2(panel.left() + 8.0, panel.bottom() - size.y - 8.0), size);
     let fill = visuals.window_fill().gamma_multiply(0.9);
     painter.rect(ground, CornerRadius::same(6), fill, visuals.window_stroke(), StrokeKind::Inside);
-    for (index, row) in ROWS.iter().enumerate() {
+    for (index, row) in rows.iter().enumerate() {
         let y = ground.top() + 5.0 + ROW * (index as f32 + 0.5);
-        sample(&painter, *row, pos2(ground.left() + 10.0, y));
+        sample(&painter, *row, pos2(ground.left() + 10.0, y), visuals.text_color());
         painter.text(pos2(ground.left() + 54.0, y), Align2::LEFT_CENTER, state.say(*row), font.clone(), visuals.text_color());
     }
 }
 
-fn sample(painter: &Painter, row: Text, left: Pos2) {
+fn sample(painter: &Painter, row: Text, left: Pos2, text: Color32) {
     let line = [left, left + vec2(34.0, 0.0)];
     let middle = left + vec2(17.0, 0.0);
     match row {
@@ -63,6 +77,11 @@ fn sample(painter: &Painter, row: Text, left: Pos2) {
             painter.circle_stroke(middle, 5.5, Stroke::new(1.5, Color32::from_white_alpha(225)));
             painter.circle_stroke(middle, 5.0, Stroke::new(1.8, theme::SELECTED));
         }
+        Text::LegendInfinity => {
+            marks::solid(painter, [left, middle], theme::LIGHT, 2.0);
+            marks::arrow(painter, middle, vec2(1.0, 0.0), theme::LIGHT, true);
+        }
+        Text::LegendLens => marks::lens(painter, middle, text),
         _ => marks::diamond(painter, middle, 6.5, theme::CONNECTION),
     }
 }

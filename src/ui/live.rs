@@ -1,15 +1,23 @@
 //! What the state asks for, made real: loads scenes, keeps the engine in step with the state, and re-runs the selected sample
 //! when (and only when) something it depends on has changed. Nothing here waits: scenes load and images render elsewhere.
 
-use super::state::State;
+use super::loader::{Failure, Loader};
+use super::state::{Opening, State};
 use super::text::{Text, fill};
-use crate::bdpt::PathRecord;
 use crate::bdpt::record::StrategyRecord;
+use crate::bdpt::{Existence, PathRecord};
 use crate::engine::{self, Engine, Frame, Job};
-use crate::scene::{Scene, SceneError, builtin};
+use crate::scene::{Lens, Scene, builtin};
 use eframe::egui;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::Duration;
+use web_time::Instant;
+
+/// How long a lens that is being dragged waits for the picture of its predecessor.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// What exists while there is no scene to ask.
+const ANYTHING: Existence = Existence { lights_to_hit: true, dirac_lights: false, diffuse: true, dirac_surfaces: false, lens: false };
 
 /// Where a scene comes from.
 pub enum SceneSource {
@@ -17,6 +25,13 @@ pub enum SceneSource {
     Named(String),
     /// In memory already.
     Ready(Arc<Scene>),
+}
+
+/// A scene, and what it was made from.
+#[derive(Clone)]
+struct Shown {
+    scene: Arc<Scene>,
+    opening: Opening,
 }
 
 /// What a record depends on.
@@ -30,9 +45,14 @@ struct RecordKey {
 /// The running half of the window.
 pub struct Live {
     ctx: egui::Context,
+    loader: Loader,
     engine: Option<Engine>,
-    scene: Option<Arc<Scene>>,
-    loading: Option<(String, Receiver<Result<Scene, SceneError>>)>,
+    /// The scene to show, and the one the engine accepted last.
+    shown: Option<Shown>,
+    running: Option<Shown>,
+    restarted: Instant,
+    existence: Existence,
+    lost: Vec<String>,
     frame: Option<Arc<Frame>>,
     frame_number: u64,
     record: Option<(RecordKey, Result<Arc<PathRecord>, String>)>,
@@ -47,9 +67,13 @@ impl Live {
     pub fn new(ctx: &egui::Context) -> Self {
         Self {
             ctx: ctx.clone(),
+            loader: Loader::new(ctx),
             engine: None,
-            scene: None,
-            loading: None,
+            shown: None,
+            running: None,
+            restarted: Instant::now(),
+            existence: ANYTHING,
+            lost: Vec::new(),
             frame: None,
             frame_number: 0,
             record: None,
@@ -62,18 +86,24 @@ impl Live {
     /// Starts with a scene.
     pub fn open(&mut self, source: SceneSource) {
         match source {
-            SceneSource::Ready(scene) => self.scene = Some(scene),
-            SceneSource::Named(name) => self.load(name),
+            SceneSource::Ready(scene) => {
+                let opening = Opening::of(scene.name.as_str());
+                self.shown = Some(Shown { scene, opening });
+            }
+            SceneSource::Named(name) => self.loader.start(Opening::of(name)),
         }
     }
 
     /// Brings everything in step with the state. Returns true if the next pass shows something new.
     pub fn sync(&mut self, state: &mut State) -> bool {
-        if let Some(name) = state.open_scene.take() {
-            self.load(name);
+        if let Some(opening) = state.open.take() {
+            self.loader.start(opening);
         }
         state.clamp();
         let loaded = self.finish_loading(state);
+        self.focus(state);
+        // First the picture that is there, then the next one's job: a lens that is dragged shows every step of the way.
+        let new_frame = self.sync_frame();
         let restarted = self.sync_job(state);
         if let Some(engine) = &mut self.engine {
             if engine.hidden() != state.hidden {
@@ -83,24 +113,48 @@ impl Live {
                 engine.set_paused(state.paused);
             }
         }
-        let new_frame = self.sync_frame();
         let new_record = self.sync_record(state);
         loaded || restarted || new_frame || new_record
     }
 
     /// The scene on show.
     pub fn scene(&self) -> Option<&Arc<Scene>> {
-        self.scene.as_ref()
+        self.shown.as_ref().map(|shown| &shown.scene)
+    }
+
+    /// What the scene on show was made from.
+    pub fn opened(&self) -> Option<&Opening> {
+        self.shown.as_ref().map(|shown| &shown.opening)
     }
 
     /// The scene being loaded.
-    pub fn loading(&self) -> Option<&str> {
-        self.loading.as_ref().map(|(name, _)| name.as_str())
+    pub fn loading(&self) -> Option<&Opening> {
+        self.loader.underway()
+    }
+
+    /// What is rendered, or about to be: a change to it starts from here.
+    pub fn wanted(&self) -> Option<&Opening> {
+        self.loading().or(self.opened())
+    }
+
+    /// The lens in use.
+    pub fn lens(&self, state: &State) -> Option<Lens> {
+        state.lens.or_else(|| Some(self.scene()?.cameras.get(state.camera)?.lens))
     }
 
     /// What is being rendered.
     pub fn engine(&self) -> Option<&Engine> {
         self.engine.as_ref()
+    }
+
+    /// Which strategies exist in what is being rendered, and why the others do not.
+    pub fn existence(&self) -> Existence {
+        self.existence
+    }
+
+    /// The kinds of paths whose light is missing, because no strategy in use can make them.
+    pub fn lost(&self) -> &[String] {
+        &self.lost
     }
 
     /// The newest frame of the current rendering.
@@ -140,70 +194,78 @@ impl Live {
         self.record(state)?.strategies.iter().find(|x| x.strategy() == state.selection.strategy)
     }
 
-    fn load(&mut self, name: String) {
-        let (sender, receiver) = channel();
-        let (ctx, wanted) = (self.ctx.clone(), name.clone());
-        self.loading = Some((name, receiver));
-        std::thread::spawn(move || {
-            // A receiver that is gone waits for another scene by now.
-            let _ = sender.send(builtin::open(&wanted));
-            ctx.request_repaint();
-        });
-    }
-
     fn finish_loading(&mut self, state: &mut State) -> bool {
-        let Some((name, receiver)) = &self.loading else { return false };
-        let result = match receiver.try_recv() {
-            Ok(result) => result.map_err(|error| error.to_string()),
-            Err(TryRecvError::Empty) => return false,
-            Err(TryRecvError::Disconnected) => Err(fill(state.say(Text::LoaderDied), &[name])),
-        };
-        self.loading = None;
+        let Some((opening, result)) = self.loader.take() else { return false };
         match result {
             Ok(scene) => {
                 // The scene shown instead of one that could not be read is no cure.
-                if self.scene.is_some() {
+                if self.shown.is_some() {
                     state.retract(self.unreadable.take());
                 }
                 if !scene.notes.is_empty() {
                     state.tell(false, format!("{}: {}", scene.name, scene.notes.join(" ")));
                 }
-                self.scene = Some(Arc::new(scene));
+                // The same scene in another light keeps its camera.
+                if self.opened().is_none_or(|old| old.scene != opening.scene) || state.camera >= scene.cameras.len() {
+                    state.choose_camera(0);
+                }
+                self.shown = Some(Shown { scene: Arc::new(scene), opening });
             }
-            Err(error) => {
+            Err(failure) => {
+                let error = match failure {
+                    Failure::Refused(error) => error.to_string(),
+                    Failure::Died => fill(state.say(Text::LoaderDied), &[&opening.scene]),
+                };
                 state.retract(self.unreadable.replace(error.clone()));
                 state.tell(true, error);
                 // With nothing on show yet, show something.
-                if self.scene.is_none()
+                if self.shown.is_none()
                     && let Some(first) = builtin::list().first()
                 {
-                    self.load(first.name.to_owned());
+                    self.loader.start(Opening::of(first.name));
                 }
             }
         }
         true
     }
 
+    /// Focuses on a pixel that was asked for.
+    fn focus(&mut self, state: &mut State) {
+        let Some(lens) = self.lens(state) else { return };
+        if lens.radius > 0.0 {
+            state.unsay(Text::FocusNeedsLens);
+        }
+        let (Some(pixel), Some(engine)) = (state.focus_on.take(), &self.engine) else { return };
+        match engine::focus_distance_at(engine.job(), pixel) {
+            _ if lens.radius == 0.0 => state.tell(false, state.say(Text::FocusNeedsLens).to_owned()),
+            Some(focus_distance) => {
+                state.lens = Some(Lens { focus_distance, ..lens });
+                state.unsay(Text::NothingToFocusOn);
+            }
+            None => state.tell(false, state.say(Text::NothingToFocusOn).to_owned()),
+        }
+    }
+
     fn sync_job(&mut self, state: &mut State) -> bool {
-        let Some(scene) = self.scene.clone() else { return false };
+        let Some(shown) = self.shown.clone() else { return false };
         let current = self.engine.as_ref().map(Engine::job);
-        let same = current.is_some_and(|job| {
-            Arc::ptr_eq(&job.scene, &scene) && job.size == state.size && job.settings == state.settings && !state.restart
+        let same_but_for_lens = current.is_some_and(|job| {
+            Arc::ptr_eq(&job.scene, &shown.scene)
+                && (job.camera, job.size, job.settings) == (state.camera, state.size, state.settings)
+                && !state.restart
         });
-        if same {
+        if same_but_for_lens && (current.is_some_and(|job| job.lens == state.lens) || self.picture_is_coming()) {
             return false;
         }
-        let moved = current.is_some_and(|job| !Arc::ptr_eq(&job.scene, &scene));
+        let moved = self.running.as_ref().is_some_and(|old| old.opening.scene != shown.opening.scene);
         state.restart = false;
         let job = Job {
-            scene,
-            camera: 0,
-            lens: None,
+            camera: state.camera,
+            lens: state.lens,
             size: state.size,
-            crop: None,
             settings: state.settings,
             weighted_layers: true,
-            raw_layers: false,
+            ..Job::new(shown.scene.clone())
         };
         let result = match &mut self.engine {
             Some(engine) => engine.restart(job),
@@ -214,23 +276,37 @@ impl Live {
         };
         state.retract(self.refused.take());
         self.refused = result.as_ref().err().map(|error| error.0.clone());
-        match (result, &self.engine) {
-            (Ok(()), _) if moved => state.selection.sample = 0,
-            (Ok(()), _) => {}
-            (Err(error), Some(engine)) => {
+        match result {
+            Ok(()) if moved => state.selection.sample = 0,
+            Ok(()) => {}
+            Err(error) => {
                 // The old rendering goes on: the state says what is running.
-                let job = engine.job();
-                self.scene = Some(job.scene.clone());
-                state.resize(job.size);
-                state.settings = job.settings;
+                if let Some(job) = self.engine.as_ref().map(Engine::job) {
+                    state.resize(job.size);
+                    (state.settings, state.camera, state.lens) = (job.settings, job.camera, job.lens);
+                }
                 state.tell(true, error.0);
-            }
-            (Err(error), None) => {
-                self.scene = None;
-                state.tell(true, error.0);
+                self.shown = self.running.clone();
+                return true;
             }
         }
+        self.running = Some(shown);
+        self.restarted = Instant::now();
+        if let Some(job) = self.engine.as_ref().map(Engine::job) {
+            self.existence = job.existence();
+            self.lost = self.existence.lost_paths(&job.settings);
+        }
         true
+    }
+
+    /// Has the engine been restarted a moment ago, and not shown anything since?
+    fn picture_is_coming(&self) -> bool {
+        let left = PATIENCE.saturating_sub(self.restarted.elapsed());
+        let coming = !left.is_zero() && self.engine.as_ref().is_some_and(|engine| engine.frame().is_none());
+        if coming {
+            self.ctx.request_repaint_after(left);
+        }
+        coming
     }
 
     fn sync_frame(&mut self) -> bool {

@@ -70,6 +70,23 @@ pub fn diamond(painter: &Painter, at: Pos2, radius: f32, colour: Color32) {
     }
 }
 
+/// An arrowhead: a vertex lies that way, at infinity; open for one that was drawn for one connection alone.
+pub fn arrow(painter: &Painter, at: Pos2, direction: Vec2, colour: Color32, filled: bool) {
+    let across = direction.rot90();
+    let corners = vec![at + direction * 9.0, at - direction * 5.0 + across * 6.5, at - direction * 5.0 - across * 6.5];
+    for (width, stroke) in [(5.0, DARK), (4.0, PALE), (2.2, colour)] {
+        painter.add(Shape::closed_line(corners.clone(), Stroke::new(width, stroke)));
+    }
+    if filled {
+        painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
+    }
+}
+
+/// A lens, seen from its edge.
+pub fn lens(painter: &Painter, at: Pos2, colour: Color32) {
+    painter.add(Shape::ellipse_stroke(at, vec2(3.5, 8.0), Stroke::new(1.5, colour)));
+}
+
 /// A ring around a selected vertex.
 pub fn ring(painter: &Painter, at: Pos2, radius: f32, colour: Color32) {
     for (width, stroke) in [(5.0, DARK), (4.0, PALE), (2.2, colour)] {

@@ -6,6 +6,7 @@
 //! ```
 
 mod app;
+mod camera_bar;
 mod cell;
 mod format;
 mod help;
@@ -14,14 +15,19 @@ mod inspector;
 pub mod keys;
 mod legend;
 mod live;
+mod loader;
 mod marks;
 mod messages;
 #[cfg(not(target_arch = "wasm32"))]
 mod native;
 mod overlay;
 mod pictures;
+mod places;
+mod preferences;
 mod projection;
 mod pyramid;
+mod scene_menu;
+mod slot;
 pub mod state;
 mod status_bar;
 pub mod text;

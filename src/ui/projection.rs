@@ -18,9 +18,10 @@ pub struct Projector {
 }
 
 impl Projector {
-    /// The projection through the first camera of `scene` for a film of `size` pixels shown at `image`, seen through `clip`.
-    pub fn new(scene: &Scene, size: [u32; 2], image: Rect, clip: Rect) -> Option<Self> {
-        let camera = scene.cameras.first()?;
+    /// The projection through the centre of the lens of a camera of `scene`, for a film of `size` pixels shown at `image`, seen
+    /// through `clip`.
+    pub fn new(scene: &Scene, camera: usize, size: [u32; 2], [image, clip]: [Rect; 2]) -> Option<Self> {
+        let camera = scene.cameras.get(camera)?;
         Some(Self { view: View::new(scene, camera, size), origin: scene.origin, image, clip })
     }
 
@@ -87,7 +88,7 @@ pub fn clip_segment(rect: Rect, a: Pos2, b: Pos2) -> Option<[Pos2; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Camera;
+    use crate::scene::{Camera, Lens};
     use eframe::egui::pos2;
 
     fn projector() -> Projector {
@@ -98,7 +99,7 @@ mod tests {
             up: Vec3::Y,
             axis: -Vec3::Z,
             yfov: std::f32::consts::FRAC_PI_2,
-            lens: crate::scene::Lens { radius: 0.0, focus_distance: 1.0 },
+            lens: Lens { radius: 0.0, focus_distance: 1.0 },
         };
         let image = Rect::from_min_max(pos2(100.0, 0.0), pos2(300.0, 200.0));
         Projector {

@@ -5,13 +5,14 @@ use super::cell;
 use super::format;
 use super::live::Live;
 use super::pictures::Pictures;
+use super::slot;
 use super::state::{Gain, Maximised, State};
 use super::text::{Text, fill};
-use super::widgets::{role_help, role_name};
-use crate::bdpt::{Role, Strategy, StrategySet};
+use super::widgets::{keep_together, role_help, role_name};
+use crate::bdpt::{Existence, Role, Strategy, StrategySet};
 use eframe::egui::{self, Button, RichText, ScrollArea, Slider, Ui, vec2};
 
-const FAMILIES: [Role; 4] = [Role::EyeHitsLight, Role::NextEvent, Role::Connect, Role::LightTracer];
+const FAMILIES: [Role; 5] = [Role::EyeHitsLight, Role::NextEvent, Role::Connect, Role::LightTracer, Role::LightHitsLens];
 const ROW_HEAD: f32 = 108.0;
 const GAP: f32 = 6.0;
 /// Length of the slider for the cells' size.
@@ -19,11 +20,12 @@ const SLIDER: f32 = 70.0;
 
 /// Shows the pyramid.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures) {
+    let existence = live.existence();
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 5.0;
-        toolbar(ui, state);
+        toolbar(ui, state, &existence);
         ui.separator();
-        families(ui, state);
+        families(ui, state, &existence);
         ui.separator();
         brightness(ui, state);
     });
@@ -32,26 +34,36 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
     ScrollArea::both().id_salt("pyramid").auto_shrink(false).show(ui, |ui| {
         ui.spacing_mut().item_spacing = vec2(GAP, GAP);
         // Each row is centred over the longest one, as far as that is in sight.
-        let width = |edges: u32| (edges + 1) as f32 * (size.x + GAP);
+        let place = |x: Strategy| GAP + if existence.absence(x).is_some() { slot::WIDTH } else { size.x };
+        let width = |edges: u32| row(edges).map(place).sum::<f32>();
         let middle = 0.5 * width(state.settings.max_edges).min(ui.available_width() - ROW_HEAD - GAP);
         for edges in 1..=state.settings.max_edges {
+            let nothing = row(edges).all(|x| existence.absence(x).is_some());
+            let height = if nothing { slot::LEAST_HEIGHT } else { size.y };
             ui.horizontal(|ui| {
-                row_head(ui, state, live, edges, size.y);
+                if nothing {
+                    empty_row_head(ui, state, edges, height);
+                } else {
+                    row_head(ui, state, live, edges, height);
+                }
                 ui.add_space((middle - 0.5 * width(edges)).max(0.0));
                 for strategy in row(edges) {
-                    cell::show(ui, state, live, pictures, strategy);
+                    match existence.absence(strategy) {
+                        Some(absence) => slot::show(ui, state, strategy, absence, height),
+                        None => cell::show(ui, state, live, pictures, strategy),
+                    }
                 }
             });
         }
     });
 }
 
-/// The strategies of a path length.
+/// The strategies of a path length, from s = 0 to t = 0.
 fn row(edges: u32) -> impl Iterator<Item = Strategy> {
-    (0..=edges).map(move |s| Strategy::new(s, edges + 1 - s))
+    (0..=edges + 1).map(move |s| Strategy::new(s, edges + 1 - s))
 }
 
-fn toolbar(ui: &mut Ui, state: &mut State) {
+fn toolbar(ui: &mut Ui, state: &mut State, existence: &Existence) {
     ui.label(RichText::new(state.say(Text::Pyramid)).heading()).on_hover_text(state.say(Text::HelpPyramid));
     if ui.button(state.say(Text::ShowAll)).on_hover_text(state.say(Text::HelpShowAll)).clicked() {
         state.hidden = StrategySet::NONE;
@@ -59,8 +71,9 @@ fn toolbar(ui: &mut Ui, state: &mut State) {
     if ui.button(state.say(Text::HideAll)).on_hover_text(state.say(Text::HelpHideAll)).clicked() {
         state.hidden = StrategySet::ALL;
     }
-    if ui.button(state.say(Text::OnlySelected)).on_hover_text(state.say(Text::HelpOnlySelected)).clicked() {
-        let selected = state.selection.strategy;
+    let selected = state.selection.strategy;
+    let only = ui.add_enabled(existence.absence(selected).is_none(), Button::new(state.say(Text::OnlySelected)));
+    if only.on_hover_text(state.say(Text::HelpOnlySelected)).clicked() {
         state.hidden = StrategySet::where_(|x| x != selected);
     }
     if ui.button(state.say(Text::RestoreAll)).on_hover_text(state.say(Text::HelpRestoreAll)).clicked() {
@@ -73,15 +86,18 @@ fn toolbar(ui: &mut Ui, state: &mut State) {
     }
 }
 
-fn families(ui: &mut Ui, state: &mut State) {
+fn families(ui: &mut Ui, state: &mut State, existence: &Existence) {
+    keep_together(ui, 200.0);
     ui.label(state.say(Text::Families));
     for role in FAMILIES {
         let member = |x: &Strategy| x.role() == role;
+        let exists = || Strategy::all(state.settings.max_edges, true).filter(member).filter(|x| existence.absence(*x).is_none());
+        let Some(first) = exists().next() else { continue };
         let name = match role {
             Role::Connect => state.say(Text::FamilyConnect).to_owned(),
-            _ => Strategy::all(2, true).find(member).map(|x| role_name(x, state.prefs.lang)).unwrap_or_default(),
+            _ => role_name(first, state.prefs.lang),
         };
-        let mut visible = Strategy::all(state.settings.max_edges, false).filter(member).any(|x| !state.hidden.contains(x));
+        let mut visible = exists().any(|x| !state.hidden.contains(x));
         let help = format!("{}\n{}", state.say(role_help(role)), state.say(Text::HelpFamily));
         let response = ui.toggle_value(&mut visible, name).on_hover_text(help);
         if response.changed() {
@@ -95,18 +111,25 @@ fn families(ui: &mut Ui, state: &mut State) {
 }
 
 fn brightness(ui: &mut Ui, state: &mut State) {
+    keep_together(ui, 180.0);
     ui.label(state.say(Text::Brightness));
     for (gain, text, help) in [(Gain::Each, Text::GainEach, Text::HelpGainEach), (Gain::Same, Text::GainSame, Text::HelpGainSame)] {
         let label = state.say(text);
         ui.selectable_value(&mut state.prefs.gain, gain, label).on_hover_text(Text::in_language(help, state.prefs.lang));
     }
     // A slider does not wrap by itself.
-    if ui.available_size_before_wrap().x < SLIDER + 60.0 {
-        ui.end_row();
-    }
+    keep_together(ui, SLIDER + 60.0);
     let label = ui.label(state.say(Text::CellSize));
     ui.spacing_mut().slider_width = SLIDER;
     ui.add(Slider::new(&mut state.prefs.cell, 64.0..=260.0).show_value(false)).labelled_by(label.id);
+}
+
+/// A row in which nothing exists has nothing to switch.
+fn empty_row_head(ui: &mut Ui, state: &State, edges: u32, height: f32) {
+    ui.allocate_ui_with_layout(vec2(ROW_HEAD, height), egui::Layout::top_down(egui::Align::Min), |ui| {
+        ui.set_width(ROW_HEAD);
+        ui.label(RichText::new(format!("k = {edges}")).strong()).on_hover_text(state.say(Text::HelpRow));
+    });
 }
 
 fn row_head(ui: &mut Ui, state: &mut State, live: &Live, edges: u32, height: f32) {
@@ -117,7 +140,8 @@ fn row_head(ui: &mut Ui, state: &mut State, live: &Live, edges: u32, height: f32
         let counted = live.frame().filter(|_| live.first_pass().is_none());
         let share = counted.map(|frame| frame.thumbnails.iter().filter(|x| x.strategy.edges() == edges).map(|x| x.share).sum::<f64>());
         ui.label(RichText::new(share.map_or("–".to_owned(), format::percent)).small().weak()).on_hover_text(state.say(Text::HelpShare));
-        let visible = row(edges).any(|x| !state.hidden.contains(x));
+        let existence = live.existence();
+        let visible = row(edges).any(|x| existence.absence(x).is_none() && !state.hidden.contains(x));
         let name = state.say(if visible { Text::HideRow } else { Text::ShowRow });
         let number = edges.to_string();
         ui.horizontal(|ui| {

@@ -1,10 +1,12 @@
 //! Everything a person can change in the window, as plain data: panels show it and edit it, and nothing else happens here.
 
+pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};
 use super::text::{Lang, Text};
-use crate::bdpt::{Settings, Strategy, StrategySet};
+use crate::bdpt::{Existence, Settings, Strategy, StrategySet};
 use crate::film::tonemap::ToneMap;
+use crate::scene::Lens;
+use crate::scene::environment::EnvironmentSource;
 use eframe::egui;
-use serde::{Deserialize, Serialize};
 
 /// What is looked at; every panel follows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,56 +35,6 @@ pub enum Placement {
     },
 }
 
-/// What is drawn over the image.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Shown {
-    /// The eye subpath.
-    pub eye: bool,
-    /// The light subpath.
-    pub light: bool,
-    /// Connections that carry light.
-    pub connections: bool,
-    /// Connections with something in between.
-    pub blocked: bool,
-    /// Where contributions to other pixels land.
-    pub splats: bool,
-    /// Names of the vertices.
-    pub names: bool,
-    /// The legend.
-    pub legend: bool,
-}
-
-/// How bright a cell of the pyramid is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Gain {
-    /// As the image.
-    Same,
-    /// Each cell by itself.
-    Each,
-}
-
-/// The inspector's pages.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Tab {
-    /// One row per strategy.
-    Strategies,
-    /// The vertices of a path.
-    Path,
-    /// The selected path under every strategy that has its length.
-    Splits,
-}
-
-/// The order of the strategies table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Sort {
-    /// Grouped by path length.
-    Length,
-    /// Largest weight first.
-    Weight,
-    /// Largest contribution first.
-    Contribution,
-}
-
 /// Which vertices the path page lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Walk {
@@ -105,43 +57,28 @@ pub enum Maximised {
     Pyramid,
 }
 
-/// What survives a restart of the program.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Preferences {
-    /// Language.
-    pub lang: Lang,
-    /// Dark theme?
-    pub dark: bool,
-    /// What is drawn over the image.
-    pub shown: Shown,
-    /// Brightness of the pyramid's cells.
-    pub gain: Gain,
-    /// Width of a cell of the pyramid, points.
-    pub cell: f32,
-    /// Page of the inspector.
-    pub tab: Tab,
-    /// Order of the strategies table.
-    pub sort: Sort,
-    /// Is the inspector shown?
-    pub inspector_open: bool,
-    /// Is the pyramid shown?
-    pub pyramid_open: bool,
+/// An environment chosen by the person; it replaces the file's.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChosenEnvironment {
+    /// Where it comes from.
+    pub source: EnvironmentSource,
+    /// How far it is turned about the vertical, degrees.
+    pub rotation: f64,
 }
 
-impl Default for Preferences {
-    fn default() -> Self {
-        Self {
-            lang: Lang::En,
-            dark: true,
-            shown: Shown { eye: true, light: true, connections: true, blocked: true, splats: true, names: true, legend: true },
-            gain: Gain::Each,
-            cell: 82.0,
-            tab: Tab::Strategies,
-            sort: Sort::Length,
-            inspector_open: true,
-            pyramid_open: true,
-        }
+/// A scene to load.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Opening {
+    /// A built-in name or a path.
+    pub scene: String,
+    /// `None` = the file's own.
+    pub environment: Option<ChosenEnvironment>,
+}
+
+impl Opening {
+    /// A scene as its file has it.
+    pub fn of(scene: impl Into<String>) -> Self {
+        Self { scene: scene.into(), environment: None }
     }
 }
 
@@ -160,9 +97,21 @@ pub struct State {
     /// What survives a restart.
     pub prefs: Preferences,
     /// Scene to load next; taken by whoever loads it.
-    pub open_scene: Option<String>,
-    /// The path typed in the scene menu.
+    pub open: Option<Opening>,
+    /// The scene's path typed in the scene menu.
     pub scene_field: String,
+    /// The environment's path typed there.
+    pub environment_field: String,
+    /// The environment's angle while it is being turned, degrees.
+    pub turning: Option<f64>,
+    /// Which of the scene's cameras.
+    pub camera: usize,
+    /// The lens; `None` = the camera's own.
+    pub lens: Option<Lens>,
+    /// The next click on the image focuses instead of selecting.
+    pub picking_focus: bool,
+    /// Pixel to focus on; taken by whoever knows the scene.
+    pub focus_on: Option<[u32; 2]>,
     /// Film size, pixels.
     pub size: [u32; 2],
     /// The estimator's settings.
@@ -196,8 +145,14 @@ impl State {
     pub fn new(prefs: Preferences, size: [u32; 2]) -> Self {
         Self {
             prefs,
-            open_scene: None,
+            open: None,
             scene_field: String::new(),
+            environment_field: String::new(),
+            turning: None,
+            camera: 0,
+            lens: None,
+            picking_focus: false,
+            focus_on: None,
             size,
             settings: Settings::default(),
             restart: false,
@@ -231,6 +186,12 @@ impl State {
         self.selection.vertex = self.selection.vertex.min(strategy.edges() as usize);
     }
 
+    /// Chooses one of the scene's cameras, with its own lens.
+    pub fn choose_camera(&mut self, camera: usize) {
+        (self.camera, self.lens) = (camera, None);
+        (self.picking_focus, self.focus_on) = (false, None);
+    }
+
     /// Changes the film size; the selected pixel stays at the same place of the picture.
     pub fn resize(&mut self, size: [u32; 2]) {
         let old = self.size;
@@ -258,15 +219,20 @@ impl State {
         }
     }
 
+    /// Takes a note back that is no longer true.
+    pub fn unsay(&mut self, note: Text) {
+        self.messages.retain(|message| message.error || ![Lang::En, Lang::Zh].iter().any(|lang| message.text == note.in_language(*lang)));
+    }
+
     /// Takes an error back that is no longer true.
     pub fn retract(&mut self, text: Option<String>) {
         self.messages.retain(|message| !message.error || Some(&message.text) != text.as_ref());
     }
 
-    /// How many of the strategies are hidden, and how many removed (these do not count as hidden).
-    pub fn left_out(&self) -> (usize, usize) {
+    /// How many of the strategies that exist are hidden, and how many removed (these do not count as hidden).
+    pub fn left_out(&self, existence: &Existence) -> (usize, usize) {
         let removed = |x: &Strategy| !self.settings.strategies.contains(*x);
-        let all = || Strategy::all(self.settings.max_edges, false);
+        let all = || Strategy::all(self.settings.max_edges, true).filter(|x| existence.absence(*x).is_none());
         (all().filter(|x| self.hidden.contains(*x) && !removed(x)).count(), all().filter(removed).count())
     }
 }

@@ -97,7 +97,7 @@ fn rendering(ui: &Ui, state: &State, live: &Live, ui_ms: f32) -> Vec<Item> {
         None => fill(state.say(Text::SamplesSoFar), &[&format!("{:.1}", stats.spp)]),
     };
     items.push(Item::new(RichText::new(samples).strong(), state.say(Text::HelpSamples), 0));
-    let (hidden, removed) = state.left_out();
+    let (hidden, removed) = state.left_out(&live.existence());
     let counts = [(hidden, Text::HiddenCount), (removed, Text::RemovedCount)];
     let counts: Vec<String> = counts.iter().filter(|(n, _)| *n > 0).map(|(n, text)| fill(state.say(*text), &[&n.to_string()])).collect();
     if !counts.is_empty() {

@@ -3,7 +3,7 @@
 
 pub use super::text_table::Text;
 use crate::bdpt::record::SplitReason;
-use crate::bdpt::{End, Reason};
+use crate::bdpt::{Absence, End, Reason};
 use serde::{Deserialize, Serialize};
 
 /// The window's languages.
@@ -73,6 +73,46 @@ pub fn reason_short(reason: Reason, lang: Lang) -> &'static str {
         Reason::Blocked => Text::ShortBlocked,
         Reason::NoLight => Text::ShortNoLight,
         Reason::Removed => Text::CellRemoved,
+    };
+    text.in_language(lang)
+}
+
+/// Why a strategy does not exist in a scene, in a sentence without its full stop.
+pub fn absence_text(absence: Absence, lang: Lang) -> &'static str {
+    match lang {
+        Lang::En => absence.text(),
+        Lang::Zh => match absence {
+            Absence::NoLight => "场景中没有光源",
+            Absence::PinholeCannotBeHit => "针孔没有面积，光源子路径无法命中：请给镜头一个半径",
+            Absence::LightsCannotBeHit => "所有光源都是点光源、聚光灯或平行光：视线子路径无法命中",
+            Absence::LightsNotShown => "所有光源都是点光源、聚光灯或平行光，不直接显示",
+            Absence::NothingScatters => "没有表面散射光",
+            Absence::NothingToConnect => "所有表面都是镜面或玻璃：它们只向个别方向散射，无法连接",
+        },
+    }
+}
+
+/// The same in a few words, for a narrow place.
+pub fn absence_short(absence: Absence, lang: Lang) -> &'static str {
+    let text = match absence {
+        Absence::NoLight => Text::AbsentNoLight,
+        Absence::PinholeCannotBeHit => Text::AbsentPinhole,
+        Absence::LightsCannotBeHit => Text::AbsentLights,
+        Absence::LightsNotShown => Text::AbsentNotShown,
+        Absence::NothingScatters => Text::AbsentScatters,
+        Absence::NothingToConnect => Text::AbsentConnects,
+    };
+    text.in_language(lang)
+}
+
+/// What kind of light (`VertexRecord::light`).
+pub fn light_kind(kind: &str, lang: Lang) -> &'static str {
+    let text = match kind {
+        "area" => Text::LightArea,
+        "point" => Text::LightPoint,
+        "spot" => Text::LightSpot,
+        "directional" => Text::LightDirectional,
+        _ => Text::LightEnvironment,
     };
     text.in_language(lang)
 }

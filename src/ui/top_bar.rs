@@ -2,19 +2,15 @@
 
 use super::keys::{self, Action};
 use super::live::Live;
+use super::scene_menu;
 use super::state::State;
 use super::text::{Lang, Text};
 use super::widgets::labelled;
-use crate::bdpt::{HeuristicKind, StrategySet};
-use crate::scene::builtin;
-use eframe::egui::{self, Align, ComboBox, DragValue, Layout, PopupCloseBehavior, Ui, UiBuilder};
+use crate::bdpt::{HeuristicKind, Strategy, StrategySet};
+use eframe::egui::{Align, ComboBox, DragValue, Layout, Ui, UiBuilder};
 
 /// Film sizes on offer.
 pub const SIZES: &[[u32; 2]] = &[[128, 128], [256, 256], [512, 512], [768, 768], [1024, 1024], [640, 360], [960, 540]];
-
-/// The scene menu holds a path to read and every built-in scene without scrolling, points.
-const SCENE_MENU_WIDTH: f32 = 320.0;
-const SCENE_MENU_HEIGHT: f32 = 560.0;
 
 const HEURISTICS: &[(HeuristicKind, Text, Text)] = &[
     (HeuristicKind::Power, Text::Power, Text::HelpPower),
@@ -27,9 +23,9 @@ const HEURISTICS: &[(HeuristicKind, Text, Text)] = &[
 /// Shows the bar.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     ui.horizontal_wrapped(|ui| {
-        scene_menu(ui, state, live);
+        scene_menu::show(ui, state, live);
         ui.separator();
-        integrator(ui, state);
+        integrator(ui, state, live);
         heuristic(ui, state);
         numbers(ui, state);
         film_size(ui, state);
@@ -84,61 +80,28 @@ fn window_switches(ui: &mut Ui, state: &mut State) {
     }
 }
 
-fn scene_menu(ui: &mut Ui, state: &mut State, live: &Live) {
-    let current = live.loading().or(live.scene().map(|scene| scene.name.as_str())).unwrap_or("–").to_owned();
-    let label = ui.label(state.say(Text::Scene));
-    // A click into the path's field must not close the menu.
-    let combo = ComboBox::from_id_salt("scene").close_behavior(PopupCloseBehavior::CloseOnClickOutside).height(SCENE_MENU_HEIGHT);
-    let response = combo.selected_text(current.as_str()).width(130.0).show_ui(ui, |ui| {
-        ui.set_min_width(SCENE_MENU_WIDTH);
-        for scene in builtin::list() {
-            if ui.selectable_label(scene.name == current, scene.name).on_hover_text(scene.teaches).clicked() {
-                state.open_scene = Some(scene.name.to_owned());
-                ui.close();
-            }
-        }
-        ui.separator();
-        let label = ui.label(state.say(Text::ScenePath));
-        let hint = state.say(Text::ScenePathHint);
-        let (entered, open) = ui
-            .horizontal(|ui| {
-                let field = egui::TextEdit::singleline(&mut state.scene_field).hint_text(hint).desired_width(SCENE_MENU_WIDTH - 70.0);
-                let field = ui.add(field).labelled_by(label.id);
-                let entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
-                (entered, ui.button(state.say(Text::Open)).clicked())
-            })
-            .inner;
-        if (entered || open) && !state.scene_field.trim().is_empty() {
-            state.open_scene = Some(state.scene_field.trim().to_owned());
-            ui.close();
-        }
-    });
-    response.response.labelled_by(label.id).on_hover_text(state.say(Text::HelpScene));
-    if live.loading().is_some() {
-        ui.spinner();
-    }
-}
-
-fn integrator(ui: &mut Ui, state: &mut State) {
+fn integrator(ui: &mut Ui, state: &mut State, live: &Live) {
     let set = state.settings.strategies;
     let presets = [
         (StrategySet::ALL, Text::IntegratorAll, Text::HelpIntegratorAll),
         (StrategySet::path_tracer(), Text::IntegratorPt, Text::HelpIntegratorPt),
         (StrategySet::light_tracer(), Text::IntegratorLt, Text::HelpIntegratorLt),
     ];
+    // Where not everything exists, two of them may be the same; then what was chosen decides.
+    let existence = live.existence();
+    let exists = |x: &Strategy| existence.absence(*x).is_none();
     let same =
-        |other: &StrategySet| crate::bdpt::Strategy::all(state.settings.max_edges, false).all(|x| set.contains(x) == other.contains(x));
-    let current = presets.iter().find(|(other, ..)| same(other)).map_or(Text::IntegratorSome, |(_, name, _)| *name);
-    let label = ui.label(state.say(Text::Integrator));
-    let combo = ComboBox::from_id_salt("integrator").selected_text(state.say(current)).width(70.0);
-    let response = combo.show_ui(ui, |ui| {
-        for (set, name, help) in presets {
-            if ui.selectable_label(current == name, state.say(name)).on_hover_text(state.say(help)).clicked() {
+        |other: &StrategySet| Strategy::all(state.settings.max_edges, true).filter(exists).all(|x| set.contains(x) == other.contains(x));
+    let current = presets.iter().position(|(other, ..)| *other == set).or_else(|| presets.iter().position(|(other, ..)| same(other)));
+    ui.label(state.say(Text::Integrator)).on_hover_text(state.say(Text::HelpIntegrator));
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0;
+        for (index, (set, name, help)) in presets.into_iter().enumerate() {
+            if ui.selectable_label(current == Some(index), state.say(name)).on_hover_text(state.say(help)).clicked() {
                 state.settings.strategies = set;
             }
         }
     });
-    response.response.labelled_by(label.id).on_hover_text(state.say(Text::HelpIntegrator));
 }
 
 fn heuristic(ui: &mut Ui, state: &mut State) {

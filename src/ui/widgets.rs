@@ -149,3 +149,11 @@ pub fn labelled(ui: &mut Ui, label: &str, hint: &str, add: impl FnOnce(&mut Ui) 
     let response = add(ui).labelled_by(name.id);
     if hint.is_empty() { response } else { response.on_hover_text(hint) }
 }
+
+/// In a row that wraps: starts the next line where less than `width` is left, so that a label stays with what it names.
+pub fn keep_together(ui: &mut Ui, width: f32) {
+    if ui.available_size_before_wrap().x < width {
+        ui.end_row();
+        ui.set_row_height(ui.spacing().interact_size.y);
+    }
+}

@@ -265,7 +265,7 @@ fn many_emitters_cost_no_more_than_few() {
         room.cuboid([-1.0; 3], [1.0; 3], true, [white; 6]);
         for i in 0..5000 {
             let (x, z) = (f64::from(i % 100) / 100.0 - 0.5, f64::from(i / 100) / 50.0 - 0.5);
-            let material = if i as usize % (10_000 / emitters) == 0 { lamp } else { dark };
+            let material = if (i as usize).is_multiple_of(10_000 / emitters) { lamp } else { dark };
             room.quad([x, 0.95, z], [0.008, 0.0, 0.0], [0.0, 0.0, 0.015], material);
         }
         room.camera([0.0, 0.0, 0.95], [0.0, -0.1, -1.0], 70.0);

@@ -1,6 +1,7 @@
 //! Times, measured when asked for.
 
 use super::*;
+use bdpt_explorer::scene::Lens;
 
 /// A measurement, not a test: from a click on the picture to the pass that draws that pixel's paths, at 512², K = 6, while
 /// rendering goes on. `cargo test --release --test ui -- --ignored --nocapture click`
@@ -25,4 +26,32 @@ fn click_to_paths_on_screen() {
         .collect();
     times.sort();
     println!("click to paths: median {:?}, worst {:?}", times[25], times[49]);
+}
+
+/// A measurement: what a pass of the window takes while the aperture is dragged at 512², K = 6, and how many pictures it shows.
+/// `cargo test --release --test ui -- --ignored --nocapture dragged`
+#[test]
+#[ignore = "a measurement"]
+fn the_aperture_is_dragged() {
+    let scene = builtin::open("cornell").expect("a built-in scene opens");
+    let mut window = Harness::builder()
+        .with_size(egui::vec2(1440.0, 900.0))
+        .allow_missing_glyphs()
+        .build_eframe(|context| App::new(Start { source: SceneSource::Ready(Arc::new(scene)), size: [512, 512] }, &context.egui_ctx, None));
+    until(&mut window, "a first frame", |app| app.live().frame().is_some());
+    let (began, first) = (Instant::now(), window.state().live().frame_number());
+    let mut times: Vec<Duration> = (0..300u32)
+        .map(|i| {
+            let radius = 0.05 * (i as f32 * 0.02).sin().abs() + 1e-4;
+            window.state_mut().state_mut().lens = Some(Lens { radius, focus_distance: 1.0 });
+            let pass = Instant::now();
+            window.step();
+            let took = pass.elapsed();
+            std::thread::sleep(Duration::from_millis(16).saturating_sub(took));
+            took
+        })
+        .collect();
+    let pictures = (window.state().live().frame_number() - first) as f64 / began.elapsed().as_secs_f64();
+    times.sort();
+    println!("a pass while dragging: median {:?}, worst {:?}; {pictures:.1} pictures per second", times[150], times[299]);
 }

@@ -8,10 +8,10 @@ use super::format;
 use super::keys::{self, Action};
 use super::live::Live;
 use super::state::{State, Tab};
-use super::text::{Text, fill};
+use super::text::{Text, absence_text, fill, reason_text};
 use super::widgets::{full_name, labelled};
-use crate::bdpt::PathRecord;
 use crate::bdpt::record::StrategyRecord;
+use crate::bdpt::{Existence, PathRecord, Strategy};
 use crate::math::Vec3;
 use eframe::egui::{self, DragValue, Label, RichText, ScrollArea, Ui};
 
@@ -24,10 +24,11 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
         ui.label(RichText::new(text).weak());
         return;
     };
+    let existence = live.existence();
     ScrollArea::vertical().id_salt(("inspector", state.prefs.tab)).auto_shrink(false).show(ui, |ui| match state.prefs.tab {
-        Tab::Strategies => strategies::show(ui, state, &record),
-        Tab::Path => path::show(ui, state, &record),
-        Tab::Splits => splits::show(ui, state, &record),
+        Tab::Strategies => strategies::show(ui, state, &existence, &record),
+        Tab::Path => path::show(ui, state, &existence, &record),
+        Tab::Splits => splits::show(ui, state, &existence, &record),
     });
 }
 
@@ -48,7 +49,8 @@ fn header(ui: &mut Ui, state: &mut State, live: &Live) {
         }
         if let Some(record) = live.record(state) {
             let feasible = record.strategies.iter().filter(|x| x.feasible).count().to_string();
-            let all = record.strategies.len().to_string();
+            let existence = live.existence();
+            let all = record.strategies.iter().filter(|x| existence.absence(x.strategy()).is_none()).count().to_string();
             ui.label(RichText::new(fill(state.say(Text::FeasibleCount), &[&feasible, &all])).weak());
         }
     });
@@ -74,6 +76,18 @@ fn on_its_pixel(record: &PathRecord) -> Vec3 {
     let here = |raster: [f32; 2]| raster.map(|v| v.floor() as i64) == record.pixel.map(i64::from);
     let lands = |x: &&StrategyRecord| x.feasible && (x.strategy().stays_in_pixel() || x.raster.is_some_and(here));
     record.strategies.iter().filter(lands).map(|x| Vec3::from(x.contribution)).sum()
+}
+
+/// Why a strategy does not exist here, in a sentence.
+fn absence(state: &State, existence: &Existence, strategy: Strategy) -> Option<String> {
+    let sentence = absence_text(existence.absence(strategy)?, state.prefs.lang);
+    Some(fill(state.say(Text::AbsentHere), &[sentence]))
+}
+
+/// Why a strategy contributes nothing to this sample: because it does not exist at all, or for a reason of its own.
+fn why_not(state: &State, existence: &Existence, record: &StrategyRecord) -> Option<String> {
+    let reason = record.reason?;
+    Some(absence(state, existence, record.strategy()).unwrap_or_else(|| reason_text(reason, state.prefs.lang).to_owned()))
 }
 
 /// The line that names the selected strategy, on the pages that are about it.

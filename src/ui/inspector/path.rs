@@ -1,16 +1,17 @@
 //! The path page: every vertex of the selected strategy's full path, or of either subpath, with its densities.
 
+use crate::bdpt::Existence;
 use crate::bdpt::record::{PathRecord, PathVertexRecord, StrategyRecord, SubpathRecord, VertexRecord};
-use crate::ui::format::{self, FRESH, indexed, number, position, rgb, unit};
+use crate::ui::format::{self, FRESH_LENS, FRESH_LIGHT, indexed, number, position, rgb, unit};
 use crate::ui::state::{State, Walk};
-use crate::ui::text::{Text, end_text, fill, reason_text};
+use crate::ui::text::{Text, end_text, fill, light_kind};
 use crate::ui::theme;
 use eframe::egui::{
     Color32, CornerRadius, Frame, Grid, Margin, RichText, Role, Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, vec2,
 };
 
 /// Shows the page.
-pub fn show(ui: &mut Ui, state: &mut State, record: &PathRecord) {
+pub fn show(ui: &mut Ui, state: &mut State, existence: &Existence, record: &PathRecord) {
     ui.horizontal_wrapped(|ui| {
         for (walk, text) in [(Walk::Full, Text::WalkFull), (Walk::Light, Text::WalkLight), (Walk::Eye, Text::WalkEye)] {
             let label = state.say(text);
@@ -19,9 +20,11 @@ pub fn show(ui: &mut Ui, state: &mut State, record: &PathRecord) {
     });
     match state.walk {
         Walk::Full => match record.strategies.iter().find(|x| x.strategy() == state.selection.strategy) {
-            Some(strategy) => full(ui, state, strategy),
+            Some(strategy) => full(ui, state, existence, strategy),
             None => {
-                ui.label(RichText::new(state.say(Text::NotInRecord)).weak());
+                super::about(ui, state);
+                let why = super::absence(state, existence, state.selection.strategy);
+                ui.label(RichText::new(why.unwrap_or_else(|| state.say(Text::NotInRecord).to_owned())).weak());
             }
         },
         Walk::Light => subpath(ui, state, 'y', theme::LIGHT, &record.light),
@@ -29,20 +32,19 @@ pub fn show(ui: &mut Ui, state: &mut State, record: &PathRecord) {
     }
 }
 
-fn full(ui: &mut Ui, state: &mut State, strategy: &StrategyRecord) {
+fn full(ui: &mut Ui, state: &mut State, existence: &Existence, strategy: &StrategyRecord) {
     super::about(ui, state);
-    if let Some(reason) = strategy.reason {
-        ui.label(RichText::new(reason_text(reason, state.prefs.lang)).weak());
+    if let Some(why) = super::why_not(state, existence, strategy) {
+        ui.label(RichText::new(why).weak());
     }
     let s = strategy.s as usize;
     for (index, vertex) in strategy.vertices.iter().enumerate() {
-        // Next event draws a light point of its own: it is no vertex of the light subpath.
-        let own = if vertex.fresh {
-            FRESH.to_owned()
-        } else if index < s {
-            indexed('y', index)
-        } else {
-            indexed('z', strategy.vertices.len() - 1 - index)
+        // Next event draws a light end of its own, and the light tracer a lens end: they are no vertices of the subpaths.
+        let own = match (vertex.fresh, index < s) {
+            (true, true) => FRESH_LIGHT.to_owned(),
+            (true, false) => FRESH_LENS.to_owned(),
+            (false, true) => indexed('y', index),
+            (false, false) => indexed('z', strategy.vertices.len() - 1 - index),
         };
         let colour = if index < s { theme::LIGHT } else { theme::EYE };
         let title = format!("{} = {own}", indexed('x', index));
@@ -70,8 +72,8 @@ fn subpath(ui: &mut Ui, state: &State, name: char, colour: Color32, subpath: &Su
             head(ui, state, &title, colour, false, vertex);
             grid(ui, (name, index), |ui| {
                 common_rows(ui, state, vertex);
-                row(ui, state.say(Text::PdfFwd), &density(vertex.pdf_fwd, vertex), state.say(Text::HelpPdfFwd));
-                let reverse = vertex.pdf_rev.map_or("–".to_owned(), |p| density(p, vertex));
+                row(ui, state.say(Text::PdfFwd), &density(state, vertex.pdf_fwd, vertex), state.say(Text::HelpPdfFwd));
+                let reverse = vertex.pdf_rev.map_or("–".to_owned(), |p| density(state, p, vertex));
                 row(ui, state.say(Text::PdfRev), &reverse, state.say(Text::HelpPdfRev));
             });
         });
@@ -109,15 +111,18 @@ fn head(ui: &mut Ui, state: &State, title: &str, colour: Color32, fresh: bool, v
             ui.painter().circle_filled(rect.center(), 5.0, colour);
         }
         ui.label(RichText::new(title).strong());
-        let what = match vertex.kind {
-            "lens" => state.say(Text::KindLens),
-            "light" => state.say(Text::KindLight),
+        // A surface point that also shines is a surface first; everything else on a light is that kind of light.
+        let what = match (vertex.kind, vertex.light) {
+            ("lens", _) => state.say(Text::KindLens),
+            ("light" | "infinity", kind) => light_kind(kind.unwrap_or_default(), state.prefs.lang),
             _ => state.say(Text::KindSurface),
         };
-        let material = vertex.material.iter().map(String::as_str).chain(vertex.model).collect::<Vec<_>>().join(", ");
-        ui.label(if material.is_empty() { what.to_owned() } else { format!("{what} · {material}") });
+        let names = [vertex.light_name.as_deref(), vertex.material.as_deref(), vertex.model];
+        let names = names.into_iter().flatten().filter(|name| !name.is_empty()).collect::<Vec<_>>().join(", ");
+        ui.label(if names.is_empty() { what.to_owned() } else { format!("{what} · {names}") });
         if fresh {
-            ui.label(RichText::new(state.say(Text::FreshPoint)).small().weak());
+            let text = if vertex.kind == "lens" { Text::FreshLens } else { Text::FreshPoint };
+            ui.label(RichText::new(state.say(text)).small().weak());
         }
         if vertex.emitter && vertex.kind == "surface" {
             ui.label(RichText::new(state.say(Text::Emitter)).small().weak());
@@ -132,14 +137,18 @@ fn full_numbers(ui: &mut Ui, state: &State, index: usize, vertex: &PathVertexRec
     grid(ui, ('x', index), |ui| {
         common_rows(ui, state, &vertex.vertex);
         for (name, p, help) in [("p_light", vertex.p_light, Text::HelpPLight), ("p_eye", vertex.p_eye, Text::HelpPEye)] {
-            let value = p.map_or("–".to_owned(), |p| density(p, &vertex.vertex));
+            let value = p.map_or("–".to_owned(), |p| density(state, p, &vertex.vertex));
             row(ui, name, &value, state.say(help));
         }
     });
 }
 
 fn common_rows(ui: &mut Ui, state: &State, vertex: &VertexRecord) {
-    row(ui, state.say(Text::Position), &format!("{} m", position(vertex.position)), state.say(Text::HelpPosition));
+    if vertex.kind == "infinity" {
+        row(ui, state.say(Text::Direction), &position(vertex.n_g.map(f64::from)), state.say(Text::HelpDirection));
+    } else {
+        row(ui, state.say(Text::Position), &format!("{} m", position(vertex.position)), state.say(Text::HelpPosition));
+    }
     row(ui, "α", &rgb(vertex.alpha), state.say(Text::HelpAlpha));
     if vertex.survival < 1.0 {
         row(ui, "q", &format::weight(f64::from(vertex.survival)), state.say(Text::HelpSurvival));
@@ -156,6 +165,6 @@ fn row(ui: &mut Ui, name: &str, value: &str, help: &str) {
     ui.end_row();
 }
 
-fn density(value: f32, vertex: &VertexRecord) -> String {
-    format!("{} {}", number(f64::from(value)), unit(vertex.measure)).trim_end().to_owned()
+fn density(state: &State, value: f32, vertex: &VertexRecord) -> String {
+    format!("{} {}", number(f64::from(value)), unit(vertex.measure, state.prefs.lang))
 }

@@ -1,7 +1,7 @@
 //! The splits page: the selected strategy's very path under every other strategy that has its length, and how they share it.
 
-use crate::bdpt::Strategy;
 use crate::bdpt::record::{PathRecord, SplitReason, SplitRecord};
+use crate::bdpt::{Existence, Strategy};
 use crate::ui::state::State;
 use crate::ui::text::{Text, split_reason};
 use crate::ui::widgets::{bar, cell_text, full_name, pair, role_name};
@@ -11,8 +11,12 @@ use eframe::egui::{CornerRadius, FontId, Rect, RichText, Role, Sense, Ui, Widget
 const ROW: f32 = 40.0;
 
 /// Shows the page.
-pub fn show(ui: &mut Ui, state: &mut State, record: &PathRecord) {
+pub fn show(ui: &mut Ui, state: &mut State, existence: &Existence, record: &PathRecord) {
     super::about(ui, state);
+    if let Some(why) = super::absence(state, existence, state.selection.strategy) {
+        ui.label(RichText::new(why).weak());
+        return;
+    }
     let splits = record.strategies.iter().find(|x| x.strategy() == state.selection.strategy).map(|x| &x.splits[..]).unwrap_or_default();
     if splits.is_empty() {
         ui.label(RichText::new(state.say(Text::NoSplits)).weak());
@@ -39,7 +43,7 @@ fn row(ui: &mut Ui, state: &mut State, split: &SplitRecord, length: f32) {
     let chosen = strategy == state.selection.strategy;
     let name = format!("{}: {}", full_name(strategy, state.prefs.lang), format::weight(split.weight));
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &name));
-    if response.clicked() && split.t > 0 {
+    if response.clicked() && split.reason != Some(SplitReason::PinholeCannotBeHit) {
         state.select_strategy(strategy);
     }
     let (painter, visuals) = (ui.painter(), ui.visuals());

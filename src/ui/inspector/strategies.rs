@@ -1,9 +1,9 @@
 //! The strategies table: a row per (s,t) with its weight and contribution, or with why it has none.
 
 use crate::bdpt::record::{PathRecord, StrategyRecord};
-use crate::bdpt::{Reason, Strategy};
+use crate::bdpt::{Existence, Reason, Strategy};
 use crate::ui::state::{Sort, State};
-use crate::ui::text::{Text, fill, reason_short, reason_text};
+use crate::ui::text::{Text, absence_short, fill, reason_short};
 use crate::ui::widgets::{bar, cell_text, full_name, pair, role_help, role_name, swatch};
 use crate::ui::{format, pictures, theme};
 use eframe::egui::{self, Color32, CornerRadius, FontId, Painter, Rect, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
@@ -27,7 +27,7 @@ impl Columns {
 }
 
 /// Shows the table.
-pub fn show(ui: &mut Ui, state: &mut State, record: &PathRecord) {
+pub fn show(ui: &mut Ui, state: &mut State, existence: &Existence, record: &PathRecord) {
     sort_buttons(ui, state);
     ui.spacing_mut().item_spacing.y = 1.0;
     heads(ui, state);
@@ -44,7 +44,7 @@ pub fn show(ui: &mut Ui, state: &mut State, record: &PathRecord) {
             ui.add_space(4.0);
             ui.label(RichText::new(fill(state.say(Text::LengthGroup), &[&edges.to_string()])).small().weak());
         }
-        row(ui, state, strategy);
+        row(ui, state, existence, strategy);
     }
 }
 
@@ -76,25 +76,26 @@ fn heads(ui: &mut Ui, state: &State) {
     ui.interact(columns.contribution, id, Sense::hover()).on_hover_text(state.say(Text::HelpHeadContribution));
 }
 
-fn row(ui: &mut Ui, state: &mut State, record: &StrategyRecord) {
+fn row(ui: &mut Ui, state: &mut State, existence: &Existence, record: &StrategyRecord) {
     let strategy = record.strategy();
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
     let chosen = strategy == state.selection.strategy;
-    let spoken = spoken(state, record);
+    let why = short(state, existence, record);
+    let spoken = spoken(state, record, why);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &spoken));
     if response.clicked() {
         state.select_strategy(strategy);
     }
     if ui.is_rect_visible(rect) {
-        paint(ui, state, record, rect, &response);
+        paint(ui, state, (record, why), rect, &response);
     }
     let lang = state.prefs.lang;
     response.on_hover_ui(|ui| {
         ui.label(RichText::new(full_name(strategy, lang)).strong());
         ui.label(role_help(strategy.role()).in_language(lang));
-        match record.reason {
-            Some(reason) => {
-                ui.label(reason_text(reason, lang));
+        match super::why_not(state, existence, record) {
+            Some(why) => {
+                ui.label(why);
             }
             None => numbers(ui, state, record),
         }
@@ -106,18 +107,25 @@ fn is_hidden(state: &State, record: &StrategyRecord) -> bool {
     state.hidden.contains(record.strategy()) && state.settings.strategies.contains(record.strategy())
 }
 
+/// Why a strategy contributes nothing, in a few words: because it does not exist at all, or for a reason of its own.
+fn short(state: &State, existence: &Existence, record: &StrategyRecord) -> Option<&'static str> {
+    let reason = record.reason?;
+    let lang = state.prefs.lang;
+    Some(existence.absence(record.strategy()).map_or_else(|| reason_short(reason, lang), |absence| absence_short(absence, lang)))
+}
+
 /// What a screen reader says for a row.
-fn spoken(state: &State, record: &StrategyRecord) -> String {
+fn spoken(state: &State, record: &StrategyRecord, why: Option<&str>) -> String {
     let name = full_name(record.strategy(), state.prefs.lang);
-    let rest = match record.reason {
-        Some(reason) => reason_short(reason, state.prefs.lang).to_owned(),
+    let rest = match why {
+        Some(why) => why.to_owned(),
         None => fill(state.say(Text::SpokenWeight), &[&format::weight(f64::from(record.mis_weight))]),
     };
     let hidden = if is_hidden(state, record) { state.say(Text::SpokenHidden) } else { "" };
     format!("{name}: {rest}{hidden}")
 }
 
-fn paint(ui: &Ui, state: &State, record: &StrategyRecord, rect: Rect, response: &Response) {
+fn paint(ui: &Ui, state: &State, (record, why): (&StrategyRecord, Option<&str>), rect: Rect, response: &Response) {
     let (painter, visuals) = (ui.painter(), ui.visuals());
     let chosen = record.strategy() == state.selection.strategy;
     if chosen || response.hovered() || response.has_focus() {
@@ -138,9 +146,9 @@ fn paint(ui: &Ui, state: &State, record: &StrategyRecord, rect: Rect, response: 
     let text = if record.feasible && !hidden { visuals.text_color() } else { weak };
     name_column(painter, state, record.strategy(), columns.role, (text, weak), hidden);
     let small = FontId::monospace(12.0);
-    if let Some(reason) = record.reason.filter(|_| !record.feasible) {
+    if let Some(why) = why.filter(|_| !record.feasible) {
         let wide = Rect::from_min_max(columns.weight.min, columns.raster.max);
-        cell_text(painter, wide, reason_short(reason, state.prefs.lang), FontId::proportional(12.5), weak);
+        cell_text(painter, wide, why, FontId::proportional(12.5), weak);
         return;
     }
     let weight = f64::from(record.mis_weight);

@@ -1,0 +1,66 @@
+//! Loads scenes on a thread of their own, one at a time: what is asked for last is what counts.
+
+use super::state::Opening;
+use crate::scene::{Overrides, Scene, SceneError, builtin};
+use eframe::egui;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+/// Why there is no scene.
+pub enum Failure {
+    /// The loader says so.
+    Refused(SceneError),
+    /// The loader's thread ended without a word.
+    Died,
+}
+
+/// The scene being loaded, if any.
+pub struct Loader {
+    ctx: egui::Context,
+    underway: Option<(Opening, Receiver<Result<Scene, SceneError>>)>,
+}
+
+impl Loader {
+    /// Nothing is loaded yet.
+    pub fn new(ctx: &egui::Context) -> Self {
+        Self { ctx: ctx.clone(), underway: None }
+    }
+
+    /// Starts loading; what was underway is forgotten.
+    pub fn start(&mut self, opening: Opening) {
+        let (sender, receiver) = channel();
+        let (ctx, wanted) = (self.ctx.clone(), opening.clone());
+        self.underway = Some((opening, receiver));
+        std::thread::spawn(move || {
+            // A receiver that is gone waits for another scene by now.
+            let _ = sender.send(read(&wanted));
+            ctx.request_repaint();
+        });
+    }
+
+    /// What is being loaded.
+    pub fn underway(&self) -> Option<&Opening> {
+        self.underway.as_ref().map(|(opening, _)| opening)
+    }
+
+    /// What has been loaded, once.
+    pub fn take(&mut self) -> Option<(Opening, Result<Scene, Failure>)> {
+        let (_, receiver) = self.underway.as_ref()?;
+        let result = match receiver.try_recv() {
+            Ok(result) => result.map_err(Failure::Refused),
+            Err(TryRecvError::Empty) => return None,
+            Err(TryRecvError::Disconnected) => Err(Failure::Died),
+        };
+        let (opening, _) = self.underway.take()?;
+        Some((opening, result))
+    }
+}
+
+/// Reads a scene. The person's environment, `opening.environment`, is handed to the scene's loader here, and nowhere else.
+fn read(opening: &Opening) -> Result<Scene, SceneError> {
+    let environment = opening.environment.as_ref();
+    let overrides = Overrides {
+        environment: environment.map(|chosen| chosen.source.clone()),
+        environment_rotation: environment.map(|chosen| chosen.rotation),
+    };
+    builtin::open_with(&opening.scene, &overrides)
+}

@@ -1,0 +1,97 @@
+//! What a person chose about the window itself; it survives a restart of the program.
+
+use super::text::Lang;
+use serde::{Deserialize, Serialize};
+
+/// What is drawn over the image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Shown {
+    /// The eye subpath.
+    pub eye: bool,
+    /// The light subpath.
+    pub light: bool,
+    /// Connections that carry light.
+    pub connections: bool,
+    /// Connections with something in between.
+    pub blocked: bool,
+    /// Where contributions to other pixels land.
+    pub splats: bool,
+    /// Names of the vertices.
+    pub names: bool,
+    /// The legend.
+    pub legend: bool,
+}
+
+/// How bright a cell of the pyramid is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Gain {
+    /// As the image.
+    Same,
+    /// Each cell by itself.
+    Each,
+}
+
+/// The inspector's pages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Tab {
+    /// One row per strategy.
+    Strategies,
+    /// The vertices of a path.
+    Path,
+    /// The selected path under every strategy that has its length.
+    Splits,
+}
+
+/// The order of the strategies table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Sort {
+    /// Grouped by path length.
+    Length,
+    /// Largest weight first.
+    Weight,
+    /// Largest contribution first.
+    Contribution,
+}
+
+/// What survives a restart of the program.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Preferences {
+    /// Language.
+    pub lang: Lang,
+    /// Dark theme?
+    pub dark: bool,
+    /// What is drawn over the image.
+    pub shown: Shown,
+    /// Brightness of the pyramid's cells.
+    pub gain: Gain,
+    /// Width of a cell of the pyramid, points.
+    pub cell: f32,
+    /// Page of the inspector.
+    pub tab: Tab,
+    /// Order of the strategies table.
+    pub sort: Sort,
+    /// Is the inspector shown?
+    pub inspector_open: bool,
+    /// Is the pyramid shown?
+    pub pyramid_open: bool,
+    /// Are the camera's controls shown?
+    pub camera_open: bool,
+}
+
+impl Default for Preferences {
+    fn default() -> Self {
+        Self {
+            lang: Lang::En,
+            dark: true,
+            shown: Shown { eye: true, light: true, connections: true, blocked: true, splats: true, names: true, legend: true },
+            gain: Gain::Each,
+            cell: 82.0,
+            tab: Tab::Strategies,
+            sort: Sort::Length,
+            inspector_open: true,
+            pyramid_open: true,
+            camera_open: false,
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! The scene menu: the built-in scenes, a file, and the environment that lights it.
+
+use super::live::Live;
+use super::state::{ChosenEnvironment, Opening, State};
+use super::text::Text;
+use super::widgets::labelled;
+use crate::scene::builtin;
+use crate::scene::environment::EnvironmentSource;
+use eframe::egui::{ComboBox, DragValue, Key, Label, PopupCloseBehavior, TextEdit, Ui};
+use std::path::Path;
+
+/// The menu holds a path to read and every built-in scene without scrolling, points.
+const WIDTH: f32 = 320.0;
+const HEIGHT: f32 = 560.0;
+/// Letters of a scene's name that the top bar has room for.
+const MOST_LETTERS: usize = 15;
+
+/// Shows the menu's button, and the menu while it is open.
+pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
+    let current = match (live.loading(), live.scene()) {
+        (Some(opening), _) => opening.scene.clone(),
+        (None, Some(scene)) => scene.name.clone(),
+        (None, None) => "–".to_owned(),
+    };
+    let label = ui.label(state.say(Text::Scene));
+    // A click into a path's field must not close the menu.
+    let combo = ComboBox::from_id_salt("scene").close_behavior(PopupCloseBehavior::CloseOnClickOutside).height(HEIGHT);
+    let response = combo.selected_text(brief(&current)).width(110.0).show_ui(ui, |ui| {
+        ui.set_min_width(WIDTH);
+        for scene in builtin::list() {
+            if ui.selectable_label(scene.name == current, scene.name).on_hover_text(scene.teaches).clicked() {
+                state.open = Some(Opening::of(scene.name));
+                ui.close();
+            }
+        }
+        ui.separator();
+        if let Some(path) = path_field(ui, state, Text::ScenePath, |state| &mut state.scene_field) {
+            state.open = Some(Opening::of(path));
+            ui.close();
+        }
+        ui.separator();
+        environment(ui, state, live);
+    });
+    let help = format!("{current}\n{}", state.say(Text::HelpScene));
+    response.response.labelled_by(label.id).on_hover_text(help);
+    if live.loading().is_some() {
+        ui.spinner();
+    }
+}
+
+/// A scene's name as the top bar has room for it: of a path, the file.
+fn brief(scene: &str) -> String {
+    let name = Path::new(scene).file_name().map_or(scene.into(), |name| name.to_string_lossy());
+    if name.chars().count() <= MOST_LETTERS { name.into_owned() } else { name.chars().take(MOST_LETTERS - 1).chain(['…']).collect() }
+}
+
+/// A field for a path with its button; the path once it is entered.
+fn path_field(ui: &mut Ui, state: &mut State, name: Text, field: impl Fn(&mut State) -> &mut String) -> Option<String> {
+    let label = ui.label(state.say(name));
+    let (hint, open) = (state.say(Text::ScenePathHint), state.say(Text::Open));
+    let entered = ui.horizontal(|ui| {
+        let edit = TextEdit::singleline(field(state)).hint_text(hint).desired_width(WIDTH - 70.0);
+        let edit = ui.add(edit).labelled_by(label.id);
+        let entered = edit.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        ui.button(open).clicked() || entered
+    });
+    let path = field(state).trim();
+    (entered.inner && !path.is_empty()).then(|| path.to_owned())
+}
+
+/// What surrounds the scene: a file to use, and how far it is turned.
+fn environment(ui: &mut Ui, state: &mut State, live: &Live) {
+    if let Some(text) = path_field(ui, state, Text::Environment, |state| &mut state.environment_field) {
+        match EnvironmentSource::parse(&text) {
+            Ok(source) => replace(state, live, Some(ChosenEnvironment { source, rotation: 0.0 })),
+            Err(reason) => state.tell(true, format!("{text}: {reason}")),
+        }
+        ui.close();
+    }
+    let Some(ChosenEnvironment { source, rotation }) = live.wanted().and_then(|opening| opening.environment.clone()) else {
+        return;
+    };
+    ui.add(Label::new(name(&source)).truncate()).on_hover_text(state.say(Text::HelpEnvironment));
+    let rotated = ui.horizontal(|ui| {
+        let mut angle = state.turning.unwrap_or(rotation);
+        let field = DragValue::new(&mut angle).range(-360.0..=360.0).speed(0.5).max_decimals(1).suffix("°").update_while_editing(false);
+        let field = labelled(ui, state.say(Text::EnvironmentTurn), state.say(Text::HelpEnvironmentTurn), |ui| ui.add(field));
+        state.turning = field.dragged().then_some(angle);
+        let remove = ui.button(state.say(Text::EnvironmentRemove)).on_hover_text(state.say(Text::HelpEnvironmentRemove));
+        if remove.clicked() {
+            return Some(None);
+        }
+        let let_go = !field.dragged() && angle != rotation && angle.is_finite();
+        let_go.then_some(Some(ChosenEnvironment { source, rotation: angle }))
+    });
+    if let Some(environment) = rotated.inner {
+        replace(state, live, environment);
+    }
+}
+
+fn name(source: &EnvironmentSource) -> String {
+    match source {
+        EnvironmentSource::Constant(radiance) => format!("{} {} {}", radiance.x, radiance.y, radiance.z),
+        EnvironmentSource::File(path) => path.display().to_string(),
+    }
+}
+
+/// Lights the scene with a picture.
+pub fn surround(state: &mut State, live: &Live, picture: &Path) {
+    replace(state, live, Some(ChosenEnvironment { source: EnvironmentSource::File(picture.to_owned()), rotation: 0.0 }));
+}
+
+/// Opens the scene again with another environment; `None` = its own.
+fn replace(state: &mut State, live: &Live, environment: Option<ChosenEnvironment>) {
+    if let Some(opening) = state.open.as_ref().or(live.wanted()) {
+        state.open = Some(Opening { scene: opening.scene.clone(), environment });
+    }
+}
