@@ -4,7 +4,7 @@
 use bdpt_explorer::bdpt::{Settings, Strategy, StrategySet};
 use bdpt_explorer::engine::{Crop, Engine, Frame, Job, Session, record};
 use bdpt_explorer::math::Vec3;
-use bdpt_explorer::scene::builtin;
+use bdpt_explorer::scene::{Lens, builtin};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
@@ -33,6 +33,7 @@ fn jobs_that_cannot_run_are_refused_in_one_line() {
         settings.heuristic.beta = beta;
         settings
     };
+    let lens = |radius, focus_distance| Some(Lens { radius, focus_distance });
     let crop = |x, y, width, height| Some(Crop { x, y, width, height });
     let wrong = [
         (Job { size: [0, 10], ..job() }, "size 0x10"),
@@ -46,7 +47,16 @@ fn jobs_that_cannot_run_are_refused_in_one_line() {
         (Job { crop: crop(u32::MAX, 0, 2, 5), ..job() }, "crop"),
         (Job { settings: beta(f32::NAN), ..job() }, "beta NaN"),
         (Job { settings: beta(-1.0), ..job() }, "beta -1"),
+        (Job { lens: lens(-0.1, 1.0), ..job() }, "lens-radius -0.1"),
+        (Job { lens: lens(f32::NAN, 1.0), ..job() }, "lens-radius NaN"),
+        (Job { lens: lens(1e9, 1.0), ..job() }, "lens-radius 1000000000"),
+        (Job { lens: lens(0.1, 0.0), ..job() }, "focus-distance 0"),
+        (Job { lens: lens(0.1, 1e-30), ..job() }, "focus-distance 0.0000"),
+        (Job { lens: lens(0.1, f32::NAN), ..job() }, "focus-distance NaN"),
     ];
+    // What cannot be told from a pinhole is one, and infinity is a place to focus on.
+    assert!(!Job { lens: lens(1e-12, 1.0), ..job() }.view().has_lens());
+    assert!(Session::new(Job { lens: lens(0.1, f32::INFINITY), ..job() }).is_ok());
     for (job, says) in wrong {
         let error = Session::new(job).expect_err(says).to_string();
         assert!(error.contains(says) && error.lines().count() == 1, "{error}");

@@ -17,6 +17,12 @@ pub const MAX_SIDE: u32 = 32_768;
 /// infinity.
 pub const MAX_LENS: f32 = 10.0;
 
+/// A lens narrower than this, in radii of the scene, is taken for a pinhole.
+const MIN_LENS: f32 = 1e-7;
+
+/// Nearest focus, in radii of the scene.
+const MIN_FOCUS: f32 = 1e-6;
+
 /// What to render.
 #[derive(Clone, Debug)]
 pub struct Job {
@@ -70,9 +76,11 @@ impl Job {
         View::new(&self.scene, &Camera { lens: self.lens(), ..self.scene.cameras[self.camera].clone() }, self.size)
     }
 
-    /// The lens it is rendered with.
+    /// The lens it is rendered with. Where f32 could hardly tell its points apart, it is a pinhole.
     pub fn lens(&self) -> Lens {
-        self.lens.unwrap_or(self.scene.cameras[self.camera].lens)
+        let lens = self.lens.unwrap_or(self.scene.cameras[self.camera].lens);
+        let radius = if lens.radius < MIN_LENS * self.scene.sphere.radius { lens.radius.min(0.0) } else { lens.radius };
+        Lens { radius, ..lens }
     }
 
     /// Which strategies exist, and why the others do not.
@@ -98,8 +106,9 @@ impl Job {
         if !(0.0..=widest).contains(&lens.radius) {
             return fail(format!("lens-radius {}: must be 0 (a pinhole) to {widest} m in this scene", lens.radius));
         }
-        if lens.radius > 0.0 && lens.focus_distance.is_nan() || lens.focus_distance <= 0.0 {
-            return fail(format!("focus-distance {}: must be above 0 m", lens.focus_distance));
+        let nearest = MIN_FOCUS * self.scene.sphere.radius;
+        if lens.radius > 0.0 && (lens.focus_distance.is_nan() || lens.focus_distance < nearest) {
+            return fail(format!("focus-distance {}: must be at least {nearest} m in this scene", lens.focus_distance));
         }
         if let Some(c) = self.crop {
             let fits = |start: u32, length: u32, side: u32| length > 0 && start < side && length <= side - start;
