@@ -14,10 +14,11 @@ use super::path::{Edge, FullPath};
 use super::reason::Reason;
 use super::strategy::Strategy;
 use super::vertex::{AT_INFINITY, DISCRETE, Subpath, Vertex};
+use super::visibility::visible;
 use super::walk::Context;
-use crate::math::{Vec2, Vec3, offset_ray_origin};
+use crate::math::{Vec2, Vec3};
 use crate::rng::{BLOCK_EYE_START, BLOCK_FRESH_LENS, BLOCK_FRESH_LIGHT, BLOCK_FRESH_PLACE, SampleId, pair};
-use crate::scene::{NONE, Segment};
+use crate::scene::NONE;
 
 /// What a strategy of a sample adds, and where.
 #[derive(Clone, Copy, Debug)]
@@ -207,7 +208,7 @@ impl Sample {
         // Its visibility, and the path's weight.
         self.edge = Edge { w, geometry };
         self.rays_shadow += 1;
-        if !crossing::visible(context, a, b, w) {
+        if !visible(context, a, b, w) {
             return Err(Reason::Blocked);
         }
         self.path.join(context, y, z, &self.edge);
@@ -238,11 +239,6 @@ fn eye_end<'a>(fresh: &'a Option<Vertex>, eye: &'a Subpath, t: usize) -> &'a [Ve
         Some(fresh) => std::slice::from_ref(fresh),
         None => &eye.vertices[..t],
     }
-}
-
-/// The connection edge as a segment that starts and ends just off its surfaces.
-pub fn segment(a: &Vertex, b: &Vertex, w: Vec3) -> Segment {
-    Segment { from: offset_ray_origin(a.position, a.error, a.n_g, w), to: offset_ray_origin(b.position, b.error, b.n_g, -w) }
 }
 
 /// L_e⁽¹⁾ or f̄ of y_{s−1} along the edge.

@@ -5,11 +5,10 @@
 //! x_k = the crossing        P_A(x_k) = q(y_{k−1}) P_σ⊥(y_{k−1}→x_k) G        C*_{k+1,0} = α^L_{k+1} W_e⁽⁰⁾ W_e⁽¹⁾(x_{k−1}→x_k) / n
 //! ```
 
-use super::connect::segment;
-use super::vertex::{AT_INFINITY, Subpath, Vertex};
+use super::vertex::{Subpath, Vertex};
+use super::visibility::visible;
 use super::walk::{Context, Step};
-use crate::math::{Vec3, offset_ray_origin};
-use crate::scene::Ray;
+use crate::math::Vec3;
 
 /// A light subpath's way through the lens.
 #[derive(Clone, Copy, Debug)]
@@ -59,17 +58,4 @@ pub fn arrive_at_lens(context: &Context, from: &Vertex, step: &Step, point: Vec3
         geometry_prev: geometry,
         ..lens
     })
-}
-
-/// V of the edge, along `w`, from a light vertex to a surface or lens vertex.
-#[inline(always)]
-pub fn visible(context: &Context, a: &Vertex, b: &Vertex, w: Vec3) -> bool {
-    if a.has(AT_INFINITY) { visible_from_infinity(context, b, w) } else { context.scene.visible(&segment(a, b, w)) }
-}
-
-/// Kept apart, so that the traversal above stays in the registers of its caller.
-#[inline(never)]
-fn visible_from_infinity(context: &Context, b: &Vertex, w: Vec3) -> bool {
-    let origin = offset_ray_origin(b.position, b.error, b.n_g, -w);
-    context.scene.visible_to_infinity(&Ray { origin, direction: -w })
 }

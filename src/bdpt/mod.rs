@@ -23,6 +23,7 @@ pub mod replay;
 pub mod settings;
 pub mod strategy;
 pub mod vertex;
+pub mod visibility;
 pub mod walk;
 
 pub use existence::{Absence, Existence};

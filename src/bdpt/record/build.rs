@@ -1,12 +1,13 @@
 //! Making a record: the sample is run again by the renderer's own code, and written down.
 
 use super::{Measure, PathRecord, PathVertexRecord, RECORD_VERSION, SplitReason, SplitRecord, StrategyRecord, SubpathRecord, VertexRecord};
-use crate::bdpt::connect::{Contribution, Sample, segment};
+use crate::bdpt::connect::{Contribution, Sample};
 use crate::bdpt::mis::{log_densities, mis_weights_by_definition};
 use crate::bdpt::path::FullPath;
 use crate::bdpt::reason::Reason;
 use crate::bdpt::strategy::Strategy;
 use crate::bdpt::vertex::{AT_INFINITY, DISCRETE, ON_LENS, ON_LIGHT, Subpath, Vertex};
+use crate::bdpt::visibility::segment;
 use crate::bdpt::walk::Context;
 use crate::math::Vec3;
 use crate::rng::SampleId;

@@ -158,3 +158,8 @@ fn decoded(uri: &str) -> PathBuf {
     }
     String::from_utf8(out).map_or_else(|_| uri.into(), PathBuf::from)
 }
+
+/// "mesh 2 'Lamp'".
+pub fn label(kind: &str, index: usize, name: Option<&str>) -> String {
+    name.map_or_else(|| format!("{kind} {index}"), |name| format!("{kind} {index} '{name}'"))
+}

@@ -11,8 +11,7 @@
 
 use super::super::environment::{Environment, EnvironmentSource};
 use super::super::{Overrides, SceneError};
-use super::container::Document;
-use super::nodes::label;
+use super::container::{Document, label};
 use crate::math::Vec3;
 use ::gltf::json::camera::Camera;
 use serde_json::Value;

@@ -6,8 +6,8 @@
 use super::super::SceneError;
 use super::super::assemble::PartLight;
 use super::super::environment::MAX_RADIANCE;
-use super::container::Document;
-use super::nodes::{Placed, label};
+use super::container::{Document, label};
+use super::nodes::Placed;
 use crate::math::Vec3;
 use ::gltf::json::extensions::scene::khr_lights_punctual::{Light, Type};
 use ::gltf::json::validation::Checked;

@@ -11,8 +11,7 @@
 
 use super::super::environment::MAX_RADIANCE;
 use super::super::{Material, SceneError};
-use super::container::Document;
-use super::nodes::label;
+use super::container::{Document, label};
 use crate::math::Vec3;
 use ::gltf::json::material::{AlphaMode, Material as Json};
 use ::gltf::json::validation::Checked;

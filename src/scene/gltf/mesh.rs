@@ -2,9 +2,9 @@
 
 use super::super::SceneError;
 use super::super::assemble::PartTriangle;
-use super::container::Document;
+use super::container::{Document, label};
 use super::material::Materials;
-use super::nodes::{Placed, label};
+use super::nodes::Placed;
 use crate::math::{DMat3, Vec3};
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;

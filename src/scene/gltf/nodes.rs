@@ -2,7 +2,7 @@
 
 use super::super::SceneError;
 use super::super::assemble::PartCamera;
-use super::container::Document;
+use super::container::{Document, label};
 use super::extras;
 use crate::math::{DMat4, DVec3};
 use ::gltf::json::scene::Node;
@@ -23,11 +23,6 @@ impl Placed<'_> {
     pub fn label(&self) -> String {
         label("node", self.index, self.node.name.as_deref())
     }
-}
-
-/// "mesh 2 'Lamp'".
-pub fn label(kind: &str, index: usize, name: Option<&str>) -> String {
-    name.map_or_else(|| format!("{kind} {index}"), |name| format!("{kind} {index} '{name}'"))
 }
 
 /// All nodes of the default scene (or of the first, or all roots if there is no scene), in file order, depth first.
