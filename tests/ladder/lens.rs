@@ -1,11 +1,13 @@
 //! Rungs 3 and 7: the thin lens. What is out of focus, what only a lens can see, and what is left when it closes.
 
+use crate::emitters_scenes;
 use crate::images::{job, mean, rendered};
 use crate::scenes::{self, Room};
-use crate::stats::{Moments, z_between, z_limit};
+use crate::stats::{Moments, chi_squared, z_between, z_limit};
 use bdpt_explorer::bdpt::{Settings, Strategy, StrategySet};
 use bdpt_explorer::engine::Job;
-use bdpt_explorer::math::Vec3;
+use bdpt_explorer::math::{Vec2, Vec3};
+use bdpt_explorer::rng::{SampleId, pair};
 use bdpt_explorer::scene::{Lens, Material, Scene};
 use std::sync::Arc;
 
@@ -15,6 +17,67 @@ const SIDE: usize = SIZE as usize / 4;
 
 fn alone(s: u32, t: u32) -> StrategySet {
     [Strategy::new(s, t)].into_iter().collect()
+}
+
+/// Rung 1: points of the lens are uniform on its disk, and from each of them the film is covered with the stated density.
+#[test]
+fn the_lens_is_sampled_as_it_says() {
+    let scene = defocused_lamp();
+    let view = job(&scene, [48, 32], Settings::default()).view();
+    assert!((view.pdf_lens() * std::f32::consts::PI * 0.04 - 1.0).abs() < 1e-6);
+    let numbers = |i: u32, block| SampleId { x: i & 0xffff, y: i >> 16, sample: 0, seed: 6 }.numbers(block);
+    let uniform = |squeeze: f32| {
+        let mut observed = vec![0u64; 64];
+        for i in 0..200_000 {
+            let l = (view.sample_lens(pair(numbers(i, 0), 2)) - view.position) / view.lens.radius;
+            assert!(l.z == 0.0 && l.length() < 1.0 + 1e-6);
+            let ring = (l.length_squared().powf(squeeze) * 8.0).min(7.99) as usize;
+            let sector = ((l.y.atan2(l.x) / std::f32::consts::TAU + 0.5) * 8.0).min(7.99) as usize;
+            observed[ring * 8 + sector] += 1;
+        }
+        chi_squared(&observed, &[200_000.0 / 64.0; 64])
+    };
+    assert!(uniform(1.0) > 1e-3, "p = {}", uniform(1.0));
+    assert!(uniform(0.98) < 1e-3, "a density 2 % off passes");
+    for i in 0..64 {
+        let lens_point = view.sample_lens(pair(numbers(i, 1), 0));
+        // ∫ P_σ⊥ |cosθ| dω over the sphere, by a fine grid; forgetting l/d moves the border of the film.
+        let (mut sum, mut shifted, n) = (0.0, 0u32, 1000u32);
+        for j in 0..n * n / 2 {
+            let z = -(((j / n) as f32 + 0.5) / (n / 2) as f32);
+            let phi = ((j % n) as f32 + 0.5) / n as f32 * std::f32::consts::TAU;
+            let r = (1.0 - z * z).sqrt();
+            let w = Vec3::new(r * phi.cos(), r * phi.sin(), z);
+            let density = view.pdf_direction_psa(w, lens_point);
+            sum += f64::from(density * w.dot(view.axis));
+            shifted += u32::from((density > 0.0) != (view.pdf_direction_psa(w, view.position) > 0.0));
+        }
+        let integral = sum / f64::from(n * n / 2) * std::f64::consts::TAU;
+        assert!((integral - 1.0).abs() < 5e-3, "∫ = {integral} from {lens_point}");
+        let off_centre = (lens_point - view.position).length() > 0.02;
+        assert!(!off_centre || shifted > 100, "the point of the lens makes no difference");
+        let raster = Vec2::new(numbers(i, 2)[0] * 48.0, numbers(i, 2)[1] * 32.0);
+        let w = view.direction(raster, lens_point);
+        let again = view.project(w, lens_point).expect("it looks forward");
+        assert!((again - raster).length() < 1e-3, "{again} {raster}");
+        // What is focused on is seen through the same raster position from every point of the lens.
+        let sharp = lens_point + w * (view.lens.focus_distance / w.dot(view.axis));
+        let from_centre = view.project((sharp - view.position).normalize(), view.position).expect("it lies in front");
+        assert!((from_centre - raster).length() < 1e-3, "{from_centre} {raster}");
+    }
+}
+
+/// The longest paths that there are, through a lens, under every kind of light.
+#[test]
+fn sixty_four_edges_and_a_lens() {
+    let settings = Settings { max_edges: 64, roulette: false, ..Settings::default() };
+    for scene in [emitters_scenes::everything(), emitters_scenes::furnace_with_lens(1.0, 0.95)] {
+        let session = rendered(Job { raw_layers: true, ..job(&scene, [4, 4], settings) }, 2);
+        assert!(session.layers().contains(&Strategy::new(65, 0)) && mean(&session.image()) > 0.0);
+    }
+    let record = bdpt_explorer::engine::record(&job(&emitters_scenes::furnace_with_lens(1.0, 0.95), [4, 4], settings), [1, 1], 0);
+    let record = record.expect("a record");
+    assert_eq!((record.light.vertices.len(), record.eye.vertices.len(), record.strategies.len()), (65, 65, 64 * 69 / 2));
 }
 
 /// A small lamp that faces a lens from 2 m away; the lens is focused at 1 m.
