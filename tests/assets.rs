@@ -2,8 +2,12 @@
 //! `BDPT_WRITE_ASSETS=1 cargo test --test assets` writes them anew.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests may panic")]
 
+#[path = "assets/emitters.rs"]
+mod emitters;
 #[path = "common/glb.rs"]
 mod glb;
+#[path = "assets/rooms.rs"]
+mod rooms;
 
 use glb::{Glb, Point, Shape, emitter, glass, joined, lambert, mirror};
 
@@ -128,12 +132,24 @@ fn furnace() -> Glb {
 #[test]
 fn committed_assets_equal_their_descriptions() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
-    for (name, scene) in [("cornell", cornell()), ("cornell-spheres", cornell_spheres()), ("indirect", indirect()), ("furnace", furnace())]
-    {
+    let scenes = [
+        ("cornell", cornell()),
+        ("cornell-spheres", cornell_spheres()),
+        ("indirect", indirect()),
+        ("furnace", furnace()),
+        ("bokeh", emitters::bokeh()),
+        ("spots", emitters::spots()),
+        ("point-mirror", rooms::point_mirror()),
+        ("sunlit-room", rooms::sunlit_room()),
+        ("sphere-lights", emitters::sphere_lights()),
+    ];
+    for (name, scene) in scenes {
         let (path, bytes) = (folder.join(name).with_extension("glb"), scene.bytes());
-        if std::env::var_os("BDPT_WRITE_ASSETS").is_some_and(|v| v == "1") {
+        let same = || std::fs::read(&path).is_ok_and(|committed| committed == bytes);
+        // What is the same is not written: it would be compiled in again.
+        if std::env::var_os("BDPT_WRITE_ASSETS").is_some_and(|v| v == "1") && !same() {
             std::fs::write(&path, &bytes).unwrap();
         }
-        assert!(std::fs::read(&path).unwrap() == bytes, "assets/{name}.glb differs from its description: run with BDPT_WRITE_ASSETS=1");
+        assert!(same(), "assets/{name}.glb differs from its description: run with BDPT_WRITE_ASSETS=1");
     }
 }

@@ -15,7 +15,7 @@ pub struct Builtin {
 }
 
 /// The table of built-in scenes.
-static SCENES: [Builtin; 4] = [
+static SCENES: [Builtin; 9] = [
     Builtin {
         name: "cornell",
         teaches: "The classic box: every strategy works somewhere, none works everywhere.",
@@ -35,6 +35,31 @@ static SCENES: [Builtin; 4] = [
         name: "furnace",
         teaches: "A closed room that glows everywhere: each path length carries exactly half the radiance of the one before, so every error shows.",
         bytes: include_bytes!("../../assets/furnace.glb"),
+    },
+    Builtin {
+        name: "bokeh",
+        teaches: "Points of light out of focus: light joined to the lens (t = 1) draws the discs seen directly, light that runs into it (t = 0) their reflections.",
+        bytes: include_bytes!("../../assets/bokeh.glb"),
+    },
+    Builtin {
+        name: "spots",
+        teaches: "A spot with a hard edge and one that fades out: lamps without extent, which no eye path can hit, so s = 0 is empty.",
+        bytes: include_bytes!("../../assets/spots.glb"),
+    },
+    Builtin {
+        name: "point-mirror",
+        teaches: "Point light, pinhole and mirror: the light's reflection and the caustics in the mirror are missing, and opening the lens (t = 0) brings them back.",
+        bytes: include_bytes!("../../assets/point-mirror.glb"),
+    },
+    Builtin {
+        name: "sunlit-room",
+        teaches: "Sun and sky through a window: light from infinity makes a bright patch on the floor, and from there lights the room.",
+        bytes: include_bytes!("../../assets/sunlit-room.glb"),
+    },
+    Builtin {
+        name: "sphere-lights",
+        teaches: "Four lamps of the same power from tiny to huge: a path tracer finds the tiny one by next event, the huge one by running into it.",
+        bytes: include_bytes!("../../assets/sphere-lights.glb"),
     },
 ];
 

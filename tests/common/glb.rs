@@ -98,6 +98,18 @@ fn to_f32(p: Point) -> [f32; 3] {
     p.map(|x| x as f32)
 }
 
+/// The quaternion that turns by `degrees` about y after it pitched up by `pitch` degrees.
+pub fn rotation([degrees, pitch]: [f64; 2]) -> [f64; 4] {
+    let ((sy, cy), (sx, cx)) = ((0.5 * degrees.to_radians()).sin_cos(), (0.5 * pitch.to_radians()).sin_cos());
+    [cy * sx, sy * cx, -sy * sx, cy * cx].map(|x| (x * 1e7).round() / 1e7)
+}
+
+/// The turn and the pitch that make −z point from one place to another.
+pub fn towards(from: Point, to: Point) -> [f64; 2] {
+    let [x, y, z] = [0, 1, 2].map(|i| to[i] - from[i]);
+    [(-x).atan2(-z).to_degrees(), y.atan2(x.hypot(z)).to_degrees()]
+}
+
 /// A diffuse material.
 pub fn lambert(name: &str, albedo: [f64; 3]) -> Value {
     json!({
@@ -194,9 +206,7 @@ impl Glb {
     /// Adds a camera turned by `degrees` about y, then pitched up by `pitch` degrees; 0° looks along −z.
     pub fn camera(&mut self, name: &str, position: Point, [degrees, pitch]: [f64; 2], yfov: f64) -> usize {
         let camera = self.push("cameras", json!({ "name": name, "type": "perspective", "perspective": { "yfov": yfov, "znear": 0.01 } }));
-        let ((sy, cy), (sx, cx)) = ((0.5 * degrees.to_radians()).sin_cos(), (0.5 * pitch.to_radians()).sin_cos());
-        let rotation = [cy * sx, sy * cx, -sy * sx, cy * cx].map(|x| (x * 1e7).round() / 1e7);
-        self.node(json!({ "name": name, "camera": camera, "translation": position, "rotation": rotation }))
+        self.node(json!({ "name": name, "camera": camera, "translation": position, "rotation": rotation([degrees, pitch]) }))
     }
 
     /// Adds a light of `KHR_lights_punctual`, to be shown by nodes.
@@ -208,6 +218,16 @@ impl Glb {
         let lights = lights.as_array_mut().unwrap();
         lights.push(light);
         lights.len() - 1
+    }
+
+    /// Adds a light of `KHR_lights_punctual` and the node that shows it at `position`, towards `target`.
+    pub fn shining(&mut self, mut light: Value, position: Point, target: Point) -> usize {
+        let name = light["name"].take();
+        light.as_object_mut().unwrap().remove("name");
+        let light = self.light(light);
+        let rotation = rotation(towards(position, target));
+        let extensions = json!({ "KHR_lights_punctual": { "light": light } });
+        self.node(json!({ "name": name, "translation": position, "rotation": rotation, "extensions": extensions }))
     }
 
     /// Adds an accessor of f32 vectors.

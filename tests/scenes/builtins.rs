@@ -8,12 +8,20 @@ fn built_in_scenes_load_without_notes() {
         let loaded = builtin::open(scene.name).unwrap();
         assert_eq!(loaded.name, scene.name);
         assert!(loaded.notes.is_empty(), "{}: {:?}", scene.name, loaded.notes);
-        assert!(loaded.features.area_lights && !scene.teaches.is_empty());
+        assert!(!loaded.lights.list.is_empty() && !scene.teaches.is_empty());
+        assert!(scene.bytes.len() < 80_000, "{}: {} bytes", scene.name, scene.bytes.len());
         let total: f64 = loaded.lights.list.iter().map(|l| f64::from(l.pmf)).sum();
         assert!((total - 1.0).abs() < 1e-6);
     }
     let message = builtin::open("cornel").unwrap_err().to_string();
-    says(&message, &["cornel: ", "no such file and no built-in scene", "cornell, cornell-spheres, indirect, furnace"]);
+    says(
+        &message,
+        &[
+            "cornel: ",
+            "no such file and no built-in scene",
+            "cornell, cornell-spheres, indirect, furnace, bokeh, spots, point-mirror, sunlit-room, sphere-lights",
+        ],
+    );
 }
 
 #[test]
@@ -46,6 +54,11 @@ fn features_of_the_built_in_scenes() {
     assert_eq!(names("cornell-spheres"), ["area lights", "mirror", "glass", "shading normals"]);
     assert_eq!(names("indirect"), ["area lights", "shading normals"]);
     assert_eq!(names("furnace"), ["area lights"]);
+    assert_eq!(names("bokeh"), ["area lights", "spot lights", "mirror", "shading normals"]);
+    assert_eq!(names("spots"), ["spot lights", "shading normals"]);
+    assert_eq!(names("point-mirror"), ["point lights", "mirror", "shading normals"]);
+    assert_eq!(names("sunlit-room"), ["directional lights", "environment", "shading normals"]);
+    assert_eq!(names("sphere-lights"), ["area lights"]);
 }
 
 #[test]

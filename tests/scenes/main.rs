@@ -3,6 +3,8 @@
 
 mod bad_input;
 mod builtins;
+mod captions_emitters;
+mod captions_lens;
 mod defaults;
 mod environment;
 mod extras;
@@ -11,6 +13,7 @@ mod geometry;
 mod glb;
 mod lights;
 mod materials;
+mod rendering;
 #[path = "../common/skip.rs"]
 mod skip;
 
