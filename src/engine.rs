@@ -15,7 +15,7 @@ use web_time::Instant;
 
 mod job;
 mod thread;
-pub use job::{FILM_BUDGET, Job, JobError, MAX_LENS, MAX_SIDE};
+pub use job::{FILM_BUDGET, Job, JobError, MAX_SIDE};
 pub use thread::{Engine, Frame, Thumbnail};
 
 /// Re-runs one sample of one pixel: the very path the renderer used. Takes well under a millisecond.

@@ -47,12 +47,12 @@ fn jobs_that_cannot_run_are_refused_in_one_line() {
         (Job { crop: crop(u32::MAX, 0, 2, 5), ..job() }, "crop"),
         (Job { settings: beta(f32::NAN), ..job() }, "beta NaN"),
         (Job { settings: beta(-1.0), ..job() }, "beta -1"),
-        (Job { lens: lens(-0.1, 1.0), ..job() }, "lens-radius -0.1"),
-        (Job { lens: lens(f32::NAN, 1.0), ..job() }, "lens-radius NaN"),
-        (Job { lens: lens(1e9, 1.0), ..job() }, "lens-radius 1000000000"),
-        (Job { lens: lens(0.1, 0.0), ..job() }, "focus-distance 0"),
-        (Job { lens: lens(0.1, 1e-30), ..job() }, "focus-distance 0.0000"),
-        (Job { lens: lens(0.1, f32::NAN), ..job() }, "focus-distance NaN"),
+        (Job { lens: lens(-0.1, 1.0), ..job() }, "lens radius -0.1 m"),
+        (Job { lens: lens(f32::NAN, 1.0), ..job() }, "lens radius NaN"),
+        (Job { lens: lens(1e9, 1.0), ..job() }, "lens radius 1000000000.0"),
+        (Job { lens: lens(0.1, 0.0), ..job() }, "focus distance 0.0 m"),
+        (Job { lens: lens(0.1, 1e-30), ..job() }, "focus distance 1e-30 m"),
+        (Job { lens: lens(0.1, f32::NAN), ..job() }, "focus distance NaN"),
     ];
     // What cannot be told from a pinhole is one, and infinity is a place to focus on.
     assert!(!Job { lens: lens(1e-12, 1.0), ..job() }.view().has_lens());

@@ -74,7 +74,7 @@ fn count(subpath: &SubpathRecord) -> String {
 }
 
 fn subpath(letter: &str, subpath: &SubpathRecord) -> String {
-    let mut table = Table::new(&["", "on", "material", "position (m)", "α (r g b)", "pdf_fwd", "pdf_rev", "unit", "roulette"]);
+    let mut table = Table::new(&["", "on", "material", "position (m), → travels", "α (r g b)", "pdf_fwd", "pdf_rev", "unit", "roulette"]);
     for (index, vertex) in subpath.vertices.iter().enumerate() {
         table.rows.push(vertex_row(format!("{letter}{index}"), vertex));
     }
@@ -98,7 +98,11 @@ fn vertex_row(name: String, vertex: &VertexRecord) -> Vec<String> {
         Measure::Discrete => "probability",
     };
     let reverse = vertex.pdf_rev.map_or("–".to_owned(), number);
-    let position = format!("{x:.4} {y:.4} {z:.4}");
+    // A vertex at infinity has a direction and no place.
+    let position = match vertex.kind {
+        "infinity" => format!("→ {:.4} {:.4} {:.4}", vertex.n_g[0], vertex.n_g[1], vertex.n_g[2]),
+        _ => format!("{x:.4} {y:.4} {z:.4}"),
+    };
     vec![
         name,
         on,

@@ -13,15 +13,8 @@ pub const FILM_BUDGET: u128 = 4 << 30;
 /// Longest side of a film, pixels (a random number's counter packs both coordinates into one word).
 pub const MAX_SIDE: u32 = 32_768;
 
-/// Widest lens, in radii of the scene: a wider one sees nothing but blur, and its sphere leaves the scene without light from
-/// infinity.
-pub const MAX_LENS: f32 = 10.0;
-
 /// A lens narrower than this, in radii of the scene, is taken for a pinhole.
 const MIN_LENS: f32 = 1e-7;
-
-/// Nearest focus, in radii of the scene.
-const MIN_FOCUS: f32 = 1e-6;
 
 /// What to render.
 #[derive(Clone, Debug)]
@@ -101,15 +94,7 @@ impl Job {
         if self.camera >= self.scene.cameras.len() {
             return fail(format!("camera {}: the scene has {}", self.camera, self.scene.cameras.len()));
         }
-        let lens = self.lens();
-        let widest = MAX_LENS * self.scene.sphere.radius.max(1e-3);
-        if !(0.0..=widest).contains(&lens.radius) {
-            return fail(format!("lens-radius {}: must be 0 (a pinhole) to {widest} m in this scene", lens.radius));
-        }
-        let nearest = MIN_FOCUS * self.scene.sphere.radius;
-        if lens.radius > 0.0 && (lens.focus_distance.is_nan() || lens.focus_distance < nearest) {
-            return fail(format!("focus-distance {}: must be at least {nearest} m in this scene", lens.focus_distance));
-        }
+        self.scene.sphere.check_lens(self.lens()).or_else(fail)?;
         if let Some(c) = self.crop {
             let fits = |start: u32, length: u32, side: u32| length > 0 && start < side && length <= side - start;
             if !fits(c.x, c.width, width) || !fits(c.y, c.height, height) {

@@ -239,6 +239,10 @@ impl Scene {
             if scene.cameras[index].lens.focus_distance.is_nan() {
                 scene.cameras[index].lens.focus_distance = scene.default_focus(&scene.cameras[index]);
             }
+            let camera = &scene.cameras[index];
+            if let Err(reason) = scene.sphere.check_lens(camera.lens) {
+                return Err(SceneError::element(Path::new(&scene.name), format!("camera '{}'", camera.name), reason));
+            }
         }
         Ok(scene)
     }

@@ -59,6 +59,8 @@ pub struct View {
     inverse_half_extent: Vec2,
     per_pass: f32,
     inverse_focus: f32,
+    /// How far before the lens edges to it end, m: what lies in its very plane is in nobody's way.
+    pub error: f32,
     /// The sphere around the scene and the lens.
     pub sphere: Sphere,
     /// 1/(πR²) of that sphere, m⁻²: the density, per area across it, of light that comes from infinity.
@@ -88,6 +90,7 @@ impl View {
             per_pass: 1.0 / (width as f32 * height as f32),
             inverse_focus: if lens.radius > 0.0 { 1.0 / lens.focus_distance } else { 0.0 },
             sphere,
+            error: 4.0 * f32::EPSILON * (camera.position.abs().max_element() + scene.sphere.radius),
             disk_pdf: 1.0 / (PI * sphere.radius * sphere.radius),
         }
     }

@@ -35,7 +35,7 @@ const KNOWN_EXTENSIONS: [&str; 9] = [
 /// If the file or another that it or the user names cannot be read, anything it refers to does not exist or does not fit, it
 /// requires an extension we do not know, there is nothing to see, or no environment where one is to be turned.
 pub fn load(path: &Path, overrides: &Overrides) -> Result<Scene, SceneError> {
-    let bytes = std::fs::read(path).map_err(|e| match e.kind() {
+    let bytes = super::read::whole(path).map_err(|e| match e.kind() {
         std::io::ErrorKind::NotFound => SceneError::file(path, "there is no such file; check the path"),
         _ => SceneError::file(path, format!("cannot be read ({e}); check the path and its permissions")),
     })?;

@@ -15,6 +15,7 @@ pub mod error;
 pub mod features;
 pub mod gltf;
 pub mod light;
+mod read;
 pub mod sphere;
 
 pub use assemble::Parts;

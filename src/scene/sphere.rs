@@ -1,5 +1,6 @@
 //! The sphere around a scene: light from infinity starts on a disk of it.
 
+use super::Lens;
 use crate::math::{Frame, Vec2, Vec3};
 
 /// A sphere.
@@ -10,6 +11,12 @@ pub struct Sphere {
     /// Its radius, m.
     pub radius: f32,
 }
+
+/// Widest lens, in radii of the scene: a wider one sees nothing but blur, and its sphere leaves the scene without light from
+/// infinity.
+pub const MAX_LENS: f32 = 10.0;
+/// Nearest focus, in radii of the scene.
+const MIN_FOCUS: f32 = 1e-6;
 
 /// Spheres are this much larger than what they hold: a rounding must not leave anything outside.
 const MARGIN: f32 = 1.0 + 1e-4;
@@ -34,6 +41,23 @@ impl Sphere {
         }
         let both = 0.5 * (distance + self.radius + radius);
         Self { centre: self.centre + offset * ((both - self.radius) / distance), radius: both * MARGIN }
+    }
+
+    /// Can a camera of this scene have such a lens? If not, a sentence says why.
+    ///
+    /// # Errors
+    /// If the radius is below 0 or above [`MAX_LENS`], or the distance (of a lens, not of a pinhole) below [`MIN_FOCUS`].
+    pub fn check_lens(&self, lens: Lens) -> Result<(), String> {
+        let Lens { radius, focus_distance } = lens;
+        let widest = MAX_LENS * self.radius.max(1e-3);
+        if !(0.0..=widest).contains(&radius) {
+            return Err(format!("the lens radius {radius:?} m must be 0 (a pinhole) to {widest:.3} m in this scene"));
+        }
+        let nearest = MIN_FOCUS * self.radius;
+        if radius > 0.0 && (focus_distance.is_nan() || focus_distance < nearest) {
+            return Err(format!("the focus distance {focus_distance:?} m must be at least {nearest:?} m in this scene"));
+        }
+        Ok(())
     }
 
     /// A point on the disk before the sphere, seen along the unit `direction`; `place` in the unit disk.

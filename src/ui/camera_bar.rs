@@ -7,7 +7,7 @@ use super::live::Live;
 use super::state::State;
 use super::text::Text;
 use super::widgets::keep_together;
-use crate::engine::MAX_LENS;
+use crate::scene::sphere::MAX_LENS;
 use crate::scene::{Lens, Scene};
 use eframe::egui::{Button, ComboBox, DragValue, Response, Slider, SliderClamping, Ui};
 

@@ -60,6 +60,8 @@ pub struct Live {
     /// The sentences about the settings and the scene refused last; they go when others are accepted.
     refused: Option<String>,
     unreadable: Option<String>,
+    /// What was said of the scene on show.
+    noted: Option<String>,
 }
 
 impl Live {
@@ -80,6 +82,7 @@ impl Live {
             records_made: 0,
             refused: None,
             unreadable: None,
+            noted: None,
         }
     }
 
@@ -202,8 +205,12 @@ impl Live {
                 if self.shown.is_some() {
                     state.retract(self.unreadable.take());
                 }
+                // What was to be said of the scene before is no longer of use.
+                state.retract(self.noted.take());
                 if !scene.notes.is_empty() {
-                    state.tell(false, format!("{}: {}", scene.name, scene.notes.join(" ")));
+                    let note = format!("{}: {}", scene.name, scene.notes.join(" "));
+                    self.noted = Some(note.clone());
+                    state.tell(false, note);
                 }
                 // The same scene in another light keeps its camera.
                 if self.opened().is_none_or(|old| old.scene != opening.scene) || state.camera >= scene.cameras.len() {

@@ -224,9 +224,9 @@ impl State {
         self.messages.retain(|message| message.error || ![Lang::En, Lang::Zh].iter().any(|lang| message.text == note.in_language(*lang)));
     }
 
-    /// Takes an error back that is no longer true.
+    /// Takes a message back that is no longer true.
     pub fn retract(&mut self, text: Option<String>) {
-        self.messages.retain(|message| !message.error || Some(&message.text) != text.as_ref());
+        self.messages.retain(|message| Some(&message.text) != text.as_ref());
     }
 
     /// How many of the strategies that exist are hidden, and how many removed (these do not count as hidden).

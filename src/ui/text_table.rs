@@ -183,7 +183,7 @@ texts! {
     HeadContribution: "contribution", "贡献";
     HeadLandsAt: "lands at", "落点";
     HelpHeadContribution: "Luminance of the weighted contribution w C*, W m⁻² sr⁻¹; the square shows its colour", "加权贡献 w C* 的亮度，W m⁻² sr⁻¹；方块表示其颜色";
-    LengthGroup: "paths of {} edges", "{} 条边的路径";
+    LengthGroup: "paths of length {}", "{} 条边的路径";
     SpokenWeight: "weight {}", "权重 {}";
     SpokenHidden: ", hidden", "，已隐藏";
     NumberWeight: "weight w", "权重 w";
@@ -192,7 +192,7 @@ texts! {
     NumberConnection: "connection term c", "连接项 c";
     NumberDensity: "density p", "概率密度 p";
     NumberRaster: "lands at (pixels)", "落点（像素）";
-    PathOfLength: "path of {} edges", "{} 条边的路径";
+    PathOfLength: "path of length {}", "{} 条边的路径";
     NotInRecord: "This sample has no such strategy.", "该采样没有这个策略。";
     WalkFull: "full path", "完整路径";
     WalkLight: "light subpath", "光源子路径";
@@ -284,7 +284,7 @@ texts! {
     HideRow: "hide", "隐藏";
     ShowRow: "show", "显示";
     OnlyRow: "only", "仅此";
-    RowName: "paths of {} edges: {}", "{} 条边的路径：{}";
+    RowName: "paths of length {}: {}", "{} 条边的路径：{}";
     CellRemoved: "removed", "已移除";
     CellHidden: "hidden", "已隐藏";
     CellWaiting: "waiting for the first picture", "等待第一幅图像";

@@ -67,6 +67,38 @@ fn the_lens_is_sampled_as_it_says() {
     }
 }
 
+/// A camera flat on a wall: the wall in the very plane of the lens is in nobody's way; eye paths, light paths and both together
+/// see the same lamp.
+#[test]
+fn a_lens_in_the_plane_of_a_surface_sees_the_same_by_every_strategy() {
+    for (radius, height) in [(0.1, 0.0), (0.0, 0.0), (0.1, 0.3)] {
+        let mut room = Room::new("camera on a wall");
+        let (white, lamp) = (room.material(Material::lambert(Vec3::splat(0.5))), room.emitter(1.0, 0.5, false));
+        room.quad([-2.0, -2.0, 0.1], [0.0, 4.0, 0.0], [4.0, 0.0, 0.0], white);
+        room.quad([-2.0, -2.0, -0.9], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], lamp);
+        room.camera([0.05, 0.02, 0.1 - height], [0.05, 0.02, -0.9 - height], 50.0);
+        room.lens(radius, 0.5);
+        let scene = room.build();
+        let over_seeds = |strategies: StrategySet| {
+            let mut moments = Moments::default();
+            for seed in 0..16 {
+                let settings = Settings { max_edges: 3, seed, strategies, ..Settings::default() };
+                moments.add(mean(&rendered(job(&scene, [16, 16], settings), 32).image()));
+            }
+            moments
+        };
+        let eye = over_seeds(StrategySet::where_(|x| x.s == 0));
+        for (name, strategies) in [("all", StrategySet::ALL), ("LT", StrategySet::light_tracer())] {
+            let other = over_seeds(strategies);
+            let z = z_between(&eye, &other);
+            println!("lens {radius} at {height}: {:.4} by eye paths, {:.4} by {name}, z = {z:.2}", eye.mean(), other.mean());
+            assert!(z.abs() < z_limit(1e-3, 6) && eye.mean() > 0.5, "lens {radius} at {height}, {name}: {} {}", eye.mean(), other.mean());
+            let shifted = (1.1 * eye.mean() - other.mean()) / (eye.error2() + other.error2()).sqrt();
+            assert!(shifted > z_limit(1e-3, 6), "an error of 10 % would pass: {shifted}");
+        }
+    }
+}
+
 /// The longest paths that there are, through a lens, under every kind of light.
 #[test]
 fn sixty_four_edges_and_a_lens() {

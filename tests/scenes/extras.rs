@@ -62,6 +62,10 @@ fn bad_lenses_are_named() {
             &["camera 0 'camera'", "its focusDistance must be a number of metres above 0"],
         );
     }
+    // What is a lens, but not of this scene.
+    says(&error(&with_lens(json!({ "lensRadius": 1e30 }))), &["camera 'camera'", "the lens radius 1e30 m must be 0 (a pinhole) to"]);
+    let near = with_lens(json!({ "lensRadius": 0.1, "focusDistance": 1e-20 }));
+    says(&error(&near), &["camera 'camera'", "the focus distance 1e-20 m must be at least"]);
     let glb = with_lens(json!({ "lensRadius": 1.5 }));
     let text = glb.document(None).to_string().replace("\"lensRadius\":1.5", "\"lensRadius\":1e999");
     let data = format!("data:;base64,{}", base64(&glb.bin));

@@ -161,7 +161,7 @@ impl StrategyRecord {
         if let (Some(Reason::Blocked), Some(a), Some(b)) = (self.reason, y.last(), z.last()) {
             let (w, _) = a.edge_to(b);
             let start = if a.has(AT_INFINITY) { Vertex { position: before(context, b, a.n_g), ..*a } } else { *a };
-            self.blocker = context.scene.blocker(&segment(&start, b, w)).map(|point| context.scene.in_file(point.position));
+            self.blocker = context.scene.blocker(&segment(context, &start, b, w)).map(|point| context.scene.in_file(point.position));
         }
         if self.feasible {
             self.splits = splits(context, sample);

@@ -64,7 +64,7 @@ impl EnvironmentSource {
                 Ok(Environment::constant(radiance))
             }
             Self::File(path) => {
-                let bytes = std::fs::read(path).map_err(|error| SceneError::file(path, unreadable(path, &error)))?;
+                let bytes = crate::scene::read::whole(path).map_err(|error| SceneError::file(path, unreadable(path, &error)))?;
                 Environment::decode(&bytes, rotation, notes).map_err(|reason| SceneError::file(path, reason))
             }
         }

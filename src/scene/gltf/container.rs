@@ -136,7 +136,8 @@ fn external(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
     }
     let folder = folder.ok_or_else(|| format!("it lies in another file, '{uri}'; export the scene as one .glb file"))?;
     let path = folder.join(decoded(uri));
-    std::fs::read(&path).map_err(|e| format!("cannot read '{}' ({e}); put it there or export the scene as one .glb file", path.display()))
+    super::super::read::whole(&path)
+        .map_err(|e| format!("cannot read '{}' ({e}); put it there or export the scene as one .glb file", path.display()))
 }
 
 /// A URI's percent escapes resolved; what is no escape, or no UTF-8 afterwards, stays as it is.
