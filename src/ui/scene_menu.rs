@@ -11,7 +11,7 @@ use std::path::Path;
 
 /// The menu holds a path to read and every built-in scene without scrolling, points.
 const WIDTH: f32 = 320.0;
-const HEIGHT: f32 = 560.0;
+const HEIGHT: f32 = 760.0;
 /// Letters of a scene's name that the top bar has room for.
 const MOST_LETTERS: usize = 15;
 

@@ -62,6 +62,8 @@ fn type_and_spacing(style: &mut Style) {
     style.spacing.interact_size.y = 24.0;
     style.spacing.window_margin = Margin::same(12);
     style.spacing.tooltip_width = 380.0;
+    // Menus are as tall as what is in them, while there is room.
+    style.spacing.default_area_size.y = 760.0;
     style.spacing.scroll.floating = false;
     style.spacing.scroll.bar_width = 8.0;
     style.interaction.selectable_labels = false;

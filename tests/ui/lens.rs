@@ -179,7 +179,7 @@ fn a_lens_that_cannot_be_rendered_is_refused_and_the_old_one_goes_on() {
     let before = generation(&window);
     window.state_mut().state_mut().lens = Some(Lens { radius: 1e6, focus_distance: 1.0 });
     window.run_steps(3);
-    assert!(window.query_by_label_contains("lens-radius").is_some());
+    assert!(window.query_by_label_contains("the lens radius").is_some());
     assert_eq!((window.state().state().lens, generation(&window)), (None, before));
 }
 

@@ -105,7 +105,7 @@ fn zoom_in(window: &mut Harness<'static, App>) {
 }
 
 fn surround(window: &mut Harness<'static, App>) {
-    let source = EnvironmentSource::File("skies/kloofendal_48d_partly_cloudy_puresky_4k.hdr".into());
+    let source = EnvironmentSource::Constant(bdpt_explorer::math::Vec3::new(0.2, 0.3, 0.5));
     let environment = Some(ChosenEnvironment { source, rotation: 30.0 });
     window.state_mut().state_mut().open = Some(Opening { environment, ..Opening::of("cornell") });
     until(window, "the scene", |app| app.live().loading().is_none() && app.live().record(app.state()).is_some());
