@@ -36,9 +36,7 @@ pub fn focus_distance_at(job: &Job, pixel: [u32; 2]) -> Option<f32> {
     let view = job.view();
     let raster = Vec2::new(pixel[0] as f32 + 0.5, pixel[1] as f32 + 0.5);
     view.pixel(raster)?;
-    let ray = Ray { origin: view.position, direction: view.direction(raster, view.position) };
-    let seen = job.scene.intersect(&ray)?;
-    Some((seen.position - view.position).dot(view.axis)).filter(|distance| *distance > 0.0)
+    job.scene.depth_along(&Ray { origin: view.position, direction: view.direction(raster, view.position) }, view.axis)
 }
 
 /// Counts and times of a session; `--stats` writes it.

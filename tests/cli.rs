@@ -247,6 +247,9 @@ fn inspect_says_the_same_every_time_and_its_json_has_the_agreed_keys() {
     for word in ["Light subpath", "Eye subpath", "next event", "light tracer", "(1,2)", "y0", "z1"] {
         assert!(table.contains(word), "{word}\n{table}");
     }
+    assert!(!table.contains("  → "), "no vertex of it is at infinity\n{table}");
+    let sky = stdout(&succeed(folder.path(), "inspect sunlit-room --pixel 60,250"));
+    assert!(sky.lines().any(|line| line.contains("z1  environment") && line.contains("  → ") && line.contains("sr⁻¹")), "{sky}");
 }
 
 #[test]

@@ -150,7 +150,7 @@ impl Sample {
         }
         let raster = context.view.project(lens.w_prev, lens.position).ok_or(Reason::BehindTheCamera)?;
         let pixel = context.view.pixel(raster).ok_or(Reason::OutsideTheFilm)?;
-        let w_e = context.view.w_e_1_on_film(lens.w_prev) * context.view.pdf_lens();
+        let w_e = context.view.w_e_1_on_film(lens.w_prev) * context.view.pdf_lens_area();
         self.path.join_at_lens(context, &self.light.vertices[..s - 1], &lens);
         Ok(Contribution {
             raster,

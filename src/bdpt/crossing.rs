@@ -39,7 +39,7 @@ pub fn find(context: &Context, light: &Subpath, last: Option<Step>, out: &mut Ve
 
 /// The vertex at which a step from `from` crosses the lens, if nothing lies before it.
 fn crossing(context: &Context, from: &Vertex, step: &Step, rays_shadow: &mut u64) -> Option<Vertex> {
-    let (_, point) = context.view.cross_lens(from.position, step.direction)?;
+    let point = context.view.cross_lens(from.position, step.direction)?;
     let lens = arrive_at_lens(context, from, step, point)?;
     *rays_shadow += 1;
     visible(context, from, &lens, -lens.w_prev).then_some(lens)
@@ -54,7 +54,7 @@ pub fn arrive_at_lens(context: &Context, from: &Vertex, step: &Step, point: Vec3
         alpha: step.alpha,
         w_prev: -w,
         pdf_fwd_area: pdf,
-        pdf_rev_area: context.view.pdf_lens(),
+        pdf_rev_area: context.view.pdf_lens_area(),
         geometry_prev: geometry,
         ..lens
     })

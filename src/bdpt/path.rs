@@ -97,7 +97,7 @@ impl FullPath {
             self.take_light_vertex(i, v, true);
         }
         self.p_light[k] = lens.pdf_fwd_area;
-        self.p_eye[k] = context.view.pdf_lens();
+        self.p_eye[k] = context.view.pdf_lens_area();
         self.p_eye[k - 1] = context.view.pdf_direction_psa_on_film(lens.w_prev) * lens.geometry_prev;
         self.activate(context);
     }
@@ -108,7 +108,7 @@ impl FullPath {
         let (x0, lights) = (&z[z.len() - 1], &context.scene.lights);
         let light = &lights.list[x0.light as usize];
         self.p_light[0] = lights.pdf_origin(light, x0.w_prev);
-        self.p_light[1] = light.pdf_direction_psa(x0.n_g, x0.w_prev, context.view.disk_pdf) * x0.geometry_prev;
+        self.p_light[1] = light.pdf_direction_psa(x0.n_g, x0.w_prev, context.view.pdf_disk_area) * x0.geometry_prev;
     }
 
     #[inline]
@@ -160,7 +160,7 @@ impl Default for FullPath {
 #[inline]
 fn leave_light_vertex_psa(context: &Context, y: &Vertex, s: usize, w: Vec3) -> f32 {
     if s == 1 {
-        return context.scene.lights.list[y.light as usize].pdf_direction_psa(y.n_g, w, context.view.disk_pdf);
+        return context.scene.lights.list[y.light as usize].pdf_direction_psa(y.n_g, w, context.view.pdf_disk_area);
     }
     y.survival * context.scene.bsdf(y.n_g, y.n_s, y.material).pdf_psa(y.w_prev, w, TransportMode::Importance)
 }

@@ -123,7 +123,7 @@ pub fn splat_quantum(context: &Context) -> f32 {
     let (view, power) = (context.view, context.scene.lights.power.max_element());
     let radius = context.scene.sphere.radius;
     let typical = power / (view.film_area() * radius * radius) * (-30.0f32).exp2();
-    let lens = if view.has_lens() { power * view.pdf_lens() / view.film_area() * (-56.0f32).exp2() } else { 0.0 };
+    let lens = if view.has_lens() { power * view.pdf_lens_area() / view.film_area() * (-56.0f32).exp2() } else { 0.0 };
     let quantum = typical.max(lens);
     if quantum.is_finite() && quantum > 1e-36 { quantum } else { (-30.0f32).exp2() }
 }

@@ -82,7 +82,7 @@ fn light_walk(context: &Context, x: &[Vertex], s: usize) -> Result<Walked, Repla
     let light = &context.scene.lights.list[x[0].light as usize];
     let y0 = context.emit(bare(&x[0], ON_LIGHT | x[0].flags & (AT_INFINITY | AT_POINT | DISCRETE)));
     let (direction, _) = towards(&x[0], &x[1]);
-    let pdf_fwd_psa = light.pdf_direction_psa(y0.n_g, direction, context.view.disk_pdf);
+    let pdf_fwd_psa = light.pdf_direction_psa(y0.n_g, direction, context.view.pdf_disk_area);
     let alpha = y0.alpha * (light.l_e_1(y0.n_g, direction) / pdf_fwd_psa);
     let points: Vec<&Vertex> = x.iter().collect();
     let (through, lens) = if s == x.len() { (&points[..s - 1], Some(points[s - 1])) } else { (&points[..s], None) };

@@ -26,6 +26,6 @@ pub fn segment(context: &Context, a: &Vertex, b: &Vertex, w: Vec3) -> Segment {
 /// Where an edge along `w` ends: just off the surface, or just before the lens.
 #[inline]
 fn end(context: &Context, b: &Vertex, w: Vec3) -> Vec3 {
-    let error = if b.has(ON_LENS) { context.view.error } else { b.error };
+    let error = if b.has(ON_LENS) { context.view.clearance } else { b.error };
     offset_ray_origin(b.position, error, b.n_g, -w)
 }

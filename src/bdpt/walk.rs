@@ -104,7 +104,7 @@ impl Context<'_> {
     #[inline]
     pub fn lens_vertex(&self, point: Vec3) -> Vertex {
         let flags = if self.view.has_lens() { ON_LENS } else { ON_LENS | DISCRETE };
-        Vertex { alpha: Vec3::ONE, pdf_fwd_area: self.view.pdf_lens(), ..Vertex::on(&free_point(point, self.view.axis), flags) }
+        Vertex { alpha: Vec3::ONE, pdf_fwd_area: self.view.pdf_lens_area(), ..Vertex::on(&free_point(point, self.view.axis), flags) }
     }
 
     /// Walks y₀, y₁, … up to `max_vertices`; returns the step that left the scene, if one did. `rays` counts the rays traced.
@@ -126,7 +126,7 @@ impl Context<'_> {
         } else {
             light.sample_direction(y0.n_g, pair(u, 0), u[2])
         };
-        let pdf_fwd_psa = light.pdf_direction_psa(y0.n_g, direction, self.view.disk_pdf);
+        let pdf_fwd_psa = light.pdf_direction_psa(y0.n_g, direction, self.view.pdf_disk_area);
         let l_e_1 = light.l_e_1(y0.n_g, direction);
         out.vertices.push(y0);
         if pdf_fwd_psa <= 0.0 || y0.alpha == Vec3::ZERO {

@@ -250,9 +250,9 @@ impl Scene {
     /// The distance, along the axis, of what a camera shows in the middle of its picture; if that is nothing, of the scene's
     /// centre, and if that is not in front, the scene's radius.
     fn default_focus(&self, camera: &Camera) -> f32 {
-        let seen = self.intersect(&super::Ray { origin: camera.position, direction: camera.axis });
-        let distance = |p: Vec3| Some((p - camera.position).dot(camera.axis)).filter(|d| *d > 0.0);
-        seen.and_then(|point| distance(point.position)).or_else(|| distance(Vec3::ZERO)).unwrap_or(self.sphere.radius)
+        let to_centre = -camera.position.dot(camera.axis);
+        let seen = self.depth_along(&super::Ray { origin: camera.position, direction: camera.axis }, camera.axis);
+        seen.or((to_centre > 0.0).then_some(to_centre)).unwrap_or(self.sphere.radius)
     }
 }
 

@@ -60,11 +60,11 @@ pub struct View {
     per_pass: f32,
     inverse_focus: f32,
     /// How far before the lens edges to it end, m: what lies in its very plane is in nobody's way.
-    pub error: f32,
+    pub clearance: f32,
     /// The sphere around the scene and the lens.
     pub sphere: Sphere,
     /// 1/(πR²) of that sphere, m⁻²: the density, per area across it, of light that comes from infinity.
-    pub disk_pdf: f32,
+    pub pdf_disk_area: f32,
 }
 
 impl View {
@@ -90,8 +90,8 @@ impl View {
             per_pass: 1.0 / (width as f32 * height as f32),
             inverse_focus: if lens.radius > 0.0 { 1.0 / lens.focus_distance } else { 0.0 },
             sphere,
-            error: 4.0 * f32::EPSILON * (camera.position.abs().max_element() + scene.sphere.radius),
-            disk_pdf: 1.0 / (PI * sphere.radius * sphere.radius),
+            clearance: 4.0 * f32::EPSILON * (camera.position.abs().max_element() + scene.sphere.radius),
+            pdf_disk_area: 1.0 / (PI * sphere.radius * sphere.radius),
         }
     }
 
@@ -103,11 +103,11 @@ impl View {
 
     /// P_A(z₀): 1/A_lens, m⁻²; of a pinhole, the probability 1.
     #[inline]
-    pub fn pdf_lens(&self) -> f32 {
+    pub fn pdf_lens_area(&self) -> f32 {
         if self.has_lens() { 1.0 / (PI * self.lens.radius * self.lens.radius) } else { 1.0 }
     }
 
-    /// A point on the lens, with density [`View::pdf_lens`].
+    /// A point on the lens, with density [`View::pdf_lens_area`].
     #[inline]
     pub fn sample_lens(&self, u: Vec2) -> Vec3 {
         if !self.has_lens() {
@@ -124,16 +124,16 @@ impl View {
         Vec2::new(offset.dot(self.right), offset.dot(self.up))
     }
 
-    /// Where a ray that comes from in front meets the lens: the distance along the unit direction, and the point.
+    /// The point where a ray that comes from in front meets the lens.
     #[inline]
-    pub fn cross_lens(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Vec3)> {
+    pub fn cross_lens(&self, origin: Vec3, direction: Vec3) -> Option<Vec3> {
         let towards = -direction.dot(self.axis);
         let distance = (origin - self.position).dot(self.axis) / towards;
         if !(towards > 0.0 && distance > 0.0) {
             return None;
         }
         let l = self.on_lens(origin + direction * distance);
-        (l.length_squared() <= self.lens.radius * self.lens.radius).then(|| (distance, self.position + self.right * l.x + self.up * l.y))
+        (l.length_squared() <= self.lens.radius * self.lens.radius).then(|| self.position + self.right * l.x + self.up * l.y)
     }
 
     /// l/d: how far a point of the lens shifts the picture on the plane at distance 1.

@@ -163,10 +163,10 @@ impl Light {
     }
 
     /// P_σ⊥(x₀→w), the density of the walk's first direction: sr⁻¹ per projected solid angle (point and spot: per solid
-    /// angle); at infinity `disk_pdf` = 1/(πR²), m⁻². Directions are drawn in proportion to the emission.
+    /// angle); at infinity `pdf_disk_area` = 1/(πR²), m⁻². Directions are drawn in proportion to the emission.
     #[inline]
-    pub fn pdf_direction_psa(&self, n_g: Vec3, w: Vec3, disk_pdf: f32) -> f32 {
-        if self.is_infinite() { disk_pdf } else { self.l_e_1(n_g, w) }
+    pub fn pdf_direction_psa(&self, n_g: Vec3, w: Vec3, pdf_disk_area: f32) -> f32 {
+        if self.is_infinite() { pdf_disk_area } else { self.l_e_1(n_g, w) }
     }
 
     /// L_e(x₀→w) of an area light, W m⁻² sr⁻¹.

@@ -203,6 +203,12 @@ impl Scene {
         Some(self.surface_point(&hit))
     }
 
+    /// How far away, along `axis`, the first hit of a ray is, m; `None` if there is none in front.
+    pub fn depth_along(&self, ray: &Ray, axis: Vec3) -> Option<f32> {
+        let seen = self.intersect(ray)?;
+        Some((seen.position - ray.origin).dot(axis)).filter(|depth| *depth > 0.0)
+    }
+
     /// Is the open segment between two points free of surfaces?
     #[inline]
     pub fn visible(&self, segment: &Segment) -> bool {

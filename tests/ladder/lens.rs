@@ -24,7 +24,7 @@ fn alone(s: u32, t: u32) -> StrategySet {
 fn the_lens_is_sampled_as_it_says() {
     let scene = defocused_lamp();
     let view = job(&scene, [48, 32], Settings::default()).view();
-    assert!((view.pdf_lens() * std::f32::consts::PI * 0.04 - 1.0).abs() < 1e-6);
+    assert!((view.pdf_lens_area() * std::f32::consts::PI * 0.04 - 1.0).abs() < 1e-6);
     let numbers = |i: u32, block| SampleId { x: i & 0xffff, y: i >> 16, sample: 0, seed: 6 }.numbers(block);
     let uniform = |squeeze: f32| {
         let mut observed = vec![0u64; 64];
@@ -276,15 +276,33 @@ fn a_closing_aperture_becomes_the_pinhole() {
     }
 }
 
-/// What lies behind the lens, or comes to it from behind, makes no contribution; the lens casts no shadow.
+/// A lamp behind the lens shines through it onto a wall. Light that comes from behind makes no contribution of t = 0, and the
+/// lens casts no shadow: focused on the wall, it shows what the pinhole shows, where most of the light came through the disk.
 #[test]
 fn a_lens_is_hit_from_the_front_alone_and_blocks_nothing() {
-    let mut room = Room::new("lamp behind the lens");
-    let lamp = room.emitter(5.0, 0.0, true);
-    room.quad([-0.5, -0.5, 1.5], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], lamp);
-    room.camera([0.0, 0.0, 1.0], [0.0, 0.0, 0.0], 60.0);
-    room.lens(0.6, 1.0);
-    let scene = room.build();
-    let settings = Settings { max_edges: 3, ..Settings::default() };
-    assert!(rendered(job(&scene, [16, 16], settings), 32).image().iter().all(|c| *c == Vec3::ZERO));
+    let scene = |radius: f64, lamp_z: f64| {
+        let mut room = Room::new("lamp behind the lens");
+        let (white, lamp) = (room.material(Material::lambert(Vec3::splat(0.5))), room.emitter(5.0, 0.0, true));
+        room.quad([-2.0, -2.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], white);
+        room.quad([-0.1, -0.1, lamp_z], [0.2, 0.0, 0.0], [0.0, 0.2, 0.0], lamp);
+        room.camera([0.0, 0.0, 1.0], [0.0, 0.0, 0.0], 30.0);
+        room.lens(radius, 1.0);
+        room.build()
+    };
+    let over_seeds = |scene: &Arc<Scene>, max_edges, strategies| {
+        let mut moments = Moments::default();
+        for seed in 0..16 {
+            let settings = Settings { max_edges, seed, strategies, ..Settings::default() };
+            moments.add(mean(&rendered(job(scene, [16, 16], settings), 32).image()));
+        }
+        moments
+    };
+    let (lens, pinhole) = (over_seeds(&scene(0.6, 1.5), 2, StrategySet::ALL), over_seeds(&scene(0.0, 1.5), 2, StrategySet::ALL));
+    let z = z_between(&lens, &pinhole);
+    println!("behind the lens: {:.5} through the lens, {:.5} through the pinhole, z = {z:.2}", lens.mean(), pinhole.mean());
+    assert!(z.abs() < z_limit(1e-3, 1), "{} {}", lens.mean(), pinhole.mean());
+    assert!((1.1 * lens.mean() - pinhole.mean()) / (lens.error2() + pinhole.error2()).sqrt() > z_limit(1e-3, 1), "10 % would pass");
+    // The lamp itself is never seen, and in front of the lens it is: the control.
+    assert_eq!(over_seeds(&scene(0.6, 1.5), 1, StrategySet::ALL).mean(), 0.0);
+    assert!(over_seeds(&scene(0.6, 0.5), 1, alone(2, 0)).mean() > 0.01);
 }

@@ -3,17 +3,23 @@
 use super::*;
 use bdpt_explorer::scene::Lens;
 
-/// A measurement, not a test: from a click on the picture to the pass that draws that pixel's paths, at 512², K = 6, while
-/// rendering goes on. `cargo test --release --test ui -- --ignored --nocapture click`
-#[test]
-#[ignore = "a measurement"]
-fn click_to_paths_on_screen() {
+/// The window with the Cornell box at 512², which shows its first frame.
+fn rendering() -> Harness<'static, App> {
     let scene = builtin::open("cornell").expect("a built-in scene opens");
     let mut window = Harness::builder()
         .with_size(egui::vec2(1440.0, 900.0))
         .allow_missing_glyphs()
         .build_eframe(|context| App::new(Start { source: SceneSource::Ready(Arc::new(scene)), size: [512, 512] }, &context.egui_ctx, None));
     until(&mut window, "a first frame", |app| app.live().frame().is_some());
+    window
+}
+
+/// A measurement, not a test: from a click on the picture to the pass that draws that pixel's paths, at 512², K = 6, while
+/// rendering goes on. `cargo test --test ui -- --ignored --nocapture click`
+#[test]
+#[ignore = "a measurement"]
+fn click_to_paths_on_screen() {
+    let mut window = rendering();
     let mut times: Vec<Duration> = (0..50u32)
         .map(|i| {
             let pixel = [i * 9 + 20, i * 7 + 40];
@@ -29,16 +35,11 @@ fn click_to_paths_on_screen() {
 }
 
 /// A measurement: what a pass of the window takes while the aperture is dragged at 512², K = 6, and how many pictures it shows.
-/// `cargo test --release --test ui -- --ignored --nocapture dragged`
+/// `cargo test --test ui -- --ignored --nocapture dragged`
 #[test]
 #[ignore = "a measurement"]
 fn the_aperture_is_dragged() {
-    let scene = builtin::open("cornell").expect("a built-in scene opens");
-    let mut window = Harness::builder()
-        .with_size(egui::vec2(1440.0, 900.0))
-        .allow_missing_glyphs()
-        .build_eframe(|context| App::new(Start { source: SceneSource::Ready(Arc::new(scene)), size: [512, 512] }, &context.egui_ctx, None));
-    until(&mut window, "a first frame", |app| app.live().frame().is_some());
+    let mut window = rendering();
     let (began, first) = (Instant::now(), window.state().live().frame_number());
     let mut times: Vec<Duration> = (0..300u32)
         .map(|i| {

@@ -108,6 +108,24 @@ fn an_environment_can_be_typed_and_another_scene_has_its_own() {
 }
 
 #[test]
+fn a_note_on_a_scene_goes_with_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("narrow.hdr");
+    // Four texels around and four from top to bottom: no whole turn by half a turn.
+    let texels = [128u8; 64];
+    std::fs::write(&path, [b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 4\n".as_slice(), &texels].concat()).expect("a file");
+    let mut window = cornell();
+    drop_file(&mut window, path);
+    window.run_steps(1);
+    settle(&mut window);
+    let notes = |window: &Harness<'static, App>| window.state().state().messages.iter().filter(|message| !message.error).count();
+    assert_eq!(notes(&window), 1);
+    window.state_mut().state_mut().open = Some(Opening::of("furnace"));
+    until(&mut window, "the other scene", |app| app.live().scene().is_some_and(|s| s.name == "furnace"));
+    assert_eq!(notes(&window), 0);
+}
+
+#[test]
 fn a_scene_and_an_environment_may_be_dropped_together() {
     let folder = tempfile::tempdir().expect("a folder");
     let bytes = builtin::list().iter().find(|x| x.name == "furnace").expect("a built-in scene").bytes;
