@@ -27,7 +27,7 @@ pub fn record(job: &Job, pixel: [u32; 2], sample: u32) -> Result<PathRecord, Job
         return Err(JobError(format!("pixel {},{}: outside the {width}x{height} film (0,0 is its top left)", pixel[0], pixel[1])));
     }
     let view = job.view();
-    Ok(record_sample(&Context { scene: &job.scene, view: &view, settings: &job.settings }, pixel, sample))
+    Ok(record_sample(&Context::new(&job.scene, &view, &job.settings), pixel, sample))
 }
 
 /// How far away, along the axis, what a pixel shows is: the first hit of the ray from the middle of the lens through the
@@ -105,7 +105,7 @@ impl Session {
         job.check()?;
         let plan = job.plan();
         let (view, height) = (job.view(), job.size[1]);
-        let quantum = splat_quantum(&Context { scene: &job.scene, view: &view, settings: &job.settings });
+        let quantum = splat_quantum(&Context::new(&job.scene, &view, &job.settings));
         let film = Film::new(job.size, plan.layers, quantum);
         Ok(Self {
             job,
@@ -134,7 +134,7 @@ impl Session {
             let rows = ((left.min(0.25) * self.rows_per_second / threads).floor().max(1.0) * threads) as u32;
             let rows = rows.min(height - self.next_row);
             let (began, first) = (Instant::now(), self.next_row as usize);
-            let context = Context { scene: &self.job.scene, view: &self.view, settings: &self.job.settings };
+            let context = Context::new(&self.job.scene, &self.view, &self.job.settings);
             let crop = self.job.crop.unwrap_or(Crop::full(self.job.size));
             let counts = render_rows(
                 &context,

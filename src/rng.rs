@@ -15,6 +15,8 @@
 //! | 256 + s | fresh lens end of (s, 1) | lens x, y |
 //! | 336 + s | rounding of the splat of (s, 1) and (s, 0) | one per colour channel |
 //! | 416 + t | fresh light end of (1, t) | place in the environment's cell (2) |
+//! | 512 + 16 + i | light subpath, segment from y_i | key of the draws that accept hits where alpha is below 1 |
+//! | 512 + 96 + i | eye subpath, segment from z_i | the same |
 
 use glam::Vec2;
 
@@ -39,6 +41,9 @@ pub const BLOCK_SPLAT: u32 = 336;
 /// First block of the fresh light ends' places in the cell of an environment.
 pub const BLOCK_FRESH_PLACE: u32 = 416;
 
+/// What is added to a walk's first block for its segments' draws of alpha.
+pub const BLOCK_ALPHA: u32 = 512;
+
 /// The counter's fixed part: which sample of which pixel, under which seed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SampleId {
@@ -53,11 +58,16 @@ pub struct SampleId {
 }
 
 impl SampleId {
+    /// The four words of a block.
+    #[inline]
+    pub fn words(&self, block: u32) -> [u32; 4] {
+        pcg4d([self.x | (self.y << 16), self.sample, self.seed, block])
+    }
+
     /// The four numbers of a block, each in [0, 1).
     #[inline]
     pub fn numbers(&self, block: u32) -> [f32; 4] {
-        let bits = pcg4d([self.x | (self.y << 16), self.sample, self.seed, block]);
-        bits.map(unit_f32)
+        self.words(block).map(unit_f32)
     }
 }
 
@@ -100,7 +110,7 @@ mod tests {
     fn blocks_do_not_overlap_up_to_64_edges() {
         let starts = [BLOCK_LIGHT_VERTEX, BLOCK_EYE_VERTEX, BLOCK_FRESH_LIGHT, BLOCK_FRESH_LENS, BLOCK_SPLAT, BLOCK_FRESH_PLACE];
         assert!(starts.windows(2).all(|w| w[1] - w[0] >= 66));
-        const { assert!(BLOCK_LIGHT_PLACE < BLOCK_LIGHT_VERTEX) };
+        const { assert!(BLOCK_LIGHT_PLACE < BLOCK_LIGHT_VERTEX && BLOCK_FRESH_PLACE + 66 <= BLOCK_ALPHA + BLOCK_LIGHT_VERTEX) };
     }
 
     #[test]

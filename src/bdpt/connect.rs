@@ -14,11 +14,12 @@ use super::path::{Edge, FullPath};
 use super::reason::Reason;
 use super::strategy::Strategy;
 use super::vertex::{AT_INFINITY, DISCRETE, Subpath, Vertex};
-use super::visibility::visible;
+use super::visibility::visibility;
 use super::walk::Context;
 use crate::math::{Vec2, Vec3};
 use crate::rng::{BLOCK_EYE_START, BLOCK_FRESH_LENS, BLOCK_FRESH_LIGHT, BLOCK_FRESH_PLACE, SampleId, pair};
-use crate::scene::NONE;
+use crate::scene::light::AREA;
+use crate::scene::{NONE, Shape};
 
 /// What a strategy of a sample adds, and where.
 #[derive(Clone, Copy, Debug)]
@@ -64,7 +65,7 @@ pub struct Sample {
 
 impl Sample {
     /// Walks both subpaths of a sample, each up to the given number of vertices.
-    pub fn trace(&mut self, context: &Context, id: SampleId, light_vertices: usize, eye_vertices: usize) {
+    pub fn trace<F: Shape>(&mut self, context: &Context<F>, id: SampleId, light_vertices: usize, eye_vertices: usize) {
         self.id = id;
         let last = context.light_subpath(id, light_vertices, &mut self.light, &mut self.rays_closest);
         crossing::find(context, &self.light, last, &mut self.crossings, &mut self.rays_shadow);
@@ -84,7 +85,7 @@ impl Sample {
     }
 
     /// After [`Reason::Blocked`]: joins the path all the same, as if the edge were free.
-    pub fn join_blocked(&mut self, context: &Context, strategy: Strategy) {
+    pub fn join_blocked<F: Shape>(&mut self, context: &Context<F>, strategy: Strategy) {
         let y = light_end(&self.fresh_light, &self.light, strategy.s as usize);
         let z = eye_end(&self.fresh_lens, &self.eye, strategy.t as usize);
         self.path.join(context, y, z, &self.edge);
@@ -92,7 +93,7 @@ impl Sample {
 
     /// Evaluates strategy (s,t) of the sample; after `Ok`, [`Sample::path`] is its path.
     #[inline]
-    pub fn evaluate(&mut self, context: &Context, strategy: Strategy) -> Result<Contribution, Reason> {
+    pub fn evaluate<F: Shape>(&mut self, context: &Context<F>, strategy: Strategy) -> Result<Contribution, Reason> {
         let (s, t) = (strategy.s as usize, strategy.t as usize);
         (self.fresh_light, self.fresh_lens) = (None, None);
         if t == 0 {
@@ -140,7 +141,7 @@ impl Sample {
     }
 
     #[inline(never)]
-    fn light_hits_lens(&mut self, context: &Context, s: usize) -> Result<Contribution, Reason> {
+    fn light_hits_lens<F: Shape>(&mut self, context: &Context<F>, s: usize) -> Result<Contribution, Reason> {
         if self.light.vertices.len() + 1 < s {
             return Err(Reason::LightSubpathTooShort);
         }
@@ -162,13 +163,14 @@ impl Sample {
     }
 
     #[inline]
-    fn eye_hits_light(&mut self, context: &Context, t: usize) -> Result<Contribution, Reason> {
+    fn eye_hits_light<F: Shape>(&mut self, context: &Context<F>, t: usize) -> Result<Contribution, Reason> {
         let (z, lights) = (&self.eye.vertices[..t], &context.scene.lights);
         let last = &z[t - 1];
         if last.light == NONE {
             return Err(Reason::NotOnALight);
         }
-        let l_e = lights.l_e(&lights.list[last.light as usize], last.n_g, last.w_prev);
+        let light = &lights.list[last.light as usize];
+        let l_e = lights.l_e(light, last.n_g, last.w_prev) * if light.kind == AREA { context.emission_factor(last) } else { Vec3::ONE };
         if l_e == Vec3::ZERO {
             return Err(Reason::BackOfTheLight);
         }
@@ -183,7 +185,7 @@ impl Sample {
     }
 
     #[inline]
-    fn connect(&mut self, context: &Context, s: usize, t: usize) -> Result<Contribution, Reason> {
+    fn connect<F: Shape>(&mut self, context: &Context<F>, s: usize, t: usize) -> Result<Contribution, Reason> {
         let y = light_end(&self.fresh_light, &self.light, s);
         let z = eye_end(&self.fresh_lens, &self.eye, t);
         let (a, b) = (&y[s - 1], &z[t - 1]);
@@ -203,14 +205,16 @@ impl Sample {
         if !(geometry > 0.0 && geometry.is_finite()) {
             return Err(Reason::DegenerateEdge);
         }
-        let connection_term = f_a * f_b * geometry;
 
         // Its visibility, and the path's weight.
         self.edge = Edge { w, geometry };
         self.rays_shadow += 1;
-        if !visible(context, a, b, w) {
+        let v = visibility(context, a, b, w);
+        if v <= 0.0 {
             return Err(Reason::Blocked);
         }
+        self.edge.geometry *= v;
+        let connection_term = f_a * f_b * self.edge.geometry;
         self.path.join(context, y, z, &self.edge);
         let pixel = if t == 1 { context.view.pixel(raster).ok_or(Reason::OutsideTheFilm)? } else { [self.id.x, self.id.y] };
         Ok(Contribution {
@@ -243,7 +247,7 @@ fn eye_end<'a>(fresh: &'a Option<Vertex>, eye: &'a Subpath, t: usize) -> &'a [Ve
 
 /// L_e⁽¹⁾ or f̄ of y_{s−1} along the edge.
 #[inline(always)]
-fn light_factor(context: &Context, y: &Vertex, s: usize, w: Vec3) -> Result<Vec3, Reason> {
+fn light_factor<F: Shape>(context: &Context<F>, y: &Vertex, s: usize, w: Vec3) -> Result<Vec3, Reason> {
     if s == 1 {
         let l_e_1 = context.scene.lights.list[y.light as usize].l_e_1(y.n_g, w);
         return if l_e_1 > 0.0 { Ok(Vec3::splat(l_e_1)) } else { Err(Reason::BackOfTheLight) };
@@ -254,8 +258,8 @@ fn light_factor(context: &Context, y: &Vertex, s: usize, w: Vec3) -> Result<Vec3
 
 /// f̄(ω_L, ω_E) at a surface vertex; `Err(true)` if it is a Dirac, `Err(false)` if it is zero.
 #[inline(always)]
-fn surface_factor(context: &Context, v: &Vertex, w_l: Vec3, w_e: Vec3) -> Result<Vec3, bool> {
-    let bsdf = context.scene.bsdf(v.n_g, v.n_s, v.material);
+fn surface_factor<F: Shape>(context: &Context<F>, v: &Vertex, w_l: Vec3, w_e: Vec3) -> Result<Vec3, bool> {
+    let bsdf = v.bsdf::<F>(context.scene);
     if bsdf.material.is_dirac() {
         return Err(true);
     }
@@ -265,7 +269,7 @@ fn surface_factor(context: &Context, v: &Vertex, w_l: Vec3, w_e: Vec3) -> Result
 
 /// W_e⁽¹⁾ of the pixel in which the direction `w` from a point of the lens lies, and its raster position.
 #[inline]
-fn lens_factor(context: &Context, w: Vec3, lens_point: Vec3) -> Result<(f32, Vec2), Reason> {
+fn lens_factor<F: Shape>(context: &Context<F>, w: Vec3, lens_point: Vec3) -> Result<(f32, Vec2), Reason> {
     let raster = context.view.project(w, lens_point).ok_or(Reason::BehindTheCamera)?;
     context.view.pixel(raster).ok_or(Reason::OutsideTheFilm)?;
     Ok((context.view.w_e_1_on_film(w), raster))

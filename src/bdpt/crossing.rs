@@ -2,13 +2,14 @@
 //! walk goes on.
 //!
 //! ```text
-//! x_k = the crossing        P_A(x_k) = q(y_{k−1}) P_σ⊥(y_{k−1}→x_k) G        C*_{k+1,0} = α^L_{k+1} W_e⁽⁰⁾ W_e⁽¹⁾(x_{k−1}→x_k) / n
+//! x_k = the crossing        P_A(x_k) = q(y_{k−1}) P_σ⊥(y_{k−1}→x_k) G V        C*_{k+1,0} = α^L_{k+1} W_e⁽⁰⁾ W_e⁽¹⁾(x_{k−1}→x_k) / n
 //! ```
 
 use super::vertex::{Subpath, Vertex};
-use super::visibility::visible;
+use super::visibility::visibility;
 use super::walk::{Context, Step};
 use crate::math::Vec3;
+use crate::scene::Shape;
 
 /// A light subpath's way through the lens.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +21,7 @@ pub struct Crossing {
 }
 
 /// Finds the crossings of y₀…y_{n−1} and of the step `last` that left the scene. Each edge has at most one.
-pub fn find(context: &Context, light: &Subpath, last: Option<Step>, out: &mut Vec<Crossing>, rays_shadow: &mut u64) {
+pub fn find<F: Shape>(context: &Context<F>, light: &Subpath, last: Option<Step>, out: &mut Vec<Crossing>, rays_shadow: &mut u64) {
     out.clear();
     if !context.view.has_lens() {
         return;
@@ -28,27 +29,35 @@ pub fn find(context: &Context, light: &Subpath, last: Option<Step>, out: &mut Ve
     for (i, pair) in light.vertices.windows(2).enumerate() {
         let (from, to) = (&pair[0], &pair[1]);
         // What the walk drew is still in the vertex it led to.
-        let step = Step { direction: -to.w_prev, pdf_fwd_psa: to.pdf_fwd_area / to.geometry_prev, alpha: to.alpha };
-        out.extend(crossing(context, from, &step, rays_shadow).map(|lens| Crossing { s: i as u32 + 2, lens }));
+        let pdf_fwd_psa = to.pdf_fwd_area / (to.geometry_prev * context.opacity(to));
+        let step = Step { direction: -to.w_prev, pdf_fwd_psa, alpha: to.alpha };
+        out.extend(crossing(context, from, Some(to), &step, rays_shadow).map(|lens| Crossing { s: i as u32 + 2, lens }));
     }
     if let (Some(step), Some(from)) = (last, light.vertices.last()) {
         let s = light.vertices.len() as u32 + 1;
-        out.extend(crossing(context, from, &step, rays_shadow).map(|lens| Crossing { s, lens }));
+        out.extend(crossing(context, from, None, &step, rays_shadow).map(|lens| Crossing { s, lens }));
     }
 }
 
-/// The vertex at which a step from `from` crosses the lens, if nothing lies before it.
-fn crossing(context: &Context, from: &Vertex, step: &Step, rays_shadow: &mut u64) -> Option<Vertex> {
+/// The vertex at which a step from `from` crosses the lens, if the walk came so far: what it accepted, `to`, lies beyond.
+fn crossing<F: Shape>(context: &Context<F>, from: &Vertex, to: Option<&Vertex>, step: &Step, rays_shadow: &mut u64) -> Option<Vertex> {
     let point = context.view.cross_lens(from.position, step.direction)?;
     let lens = arrive_at_lens(context, from, step, point)?;
+    if F::ALPHA {
+        // Where the walk passed surfaces that are partly there, its own draws decide; V of arrive_at_lens has only their odds.
+        let room = context.view.clearance / lens.w_prev.dot(lens.n_g).abs();
+        let beyond = |to: &Vertex| (to.position - from.position).dot(step.direction) > (point - from.position).dot(step.direction) - room;
+        return to.is_none_or(beyond).then_some(lens);
+    }
     *rays_shadow += 1;
-    visible(context, from, &lens, -lens.w_prev).then_some(lens)
+    (visibility(context, from, &lens, -lens.w_prev) > 0.0).then_some(lens)
 }
 
-/// The lens vertex at `point` as a step from `from` reaches it; `None` if the edge has no G.
-pub fn arrive_at_lens(context: &Context, from: &Vertex, step: &Step, point: Vec3) -> Option<Vertex> {
+/// The lens vertex at `point` as a step from `from` reaches it; `None` if the edge has no G or nothing of it is free.
+pub fn arrive_at_lens<F: Shape>(context: &Context<F>, from: &Vertex, step: &Step, point: Vec3) -> Option<Vertex> {
     let lens = context.lens_vertex(point);
     let (w, geometry) = from.edge_to(&lens);
+    let geometry = geometry * context.seen_through(from, &lens, w);
     let pdf = step.pdf_fwd_psa * geometry;
     (pdf > 0.0 && pdf.is_finite()).then_some(Vertex {
         alpha: step.alpha,

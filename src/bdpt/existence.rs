@@ -63,7 +63,7 @@ impl Existence {
         Self {
             lights_to_hit: features.area_lights || features.environment,
             dirac_lights: features.point_lights || features.spot_lights || features.directional_lights,
-            diffuse: features.diffuse,
+            diffuse: features.connectable,
             dirac_surfaces: features.dirac_surfaces(),
             lens,
         }

@@ -5,21 +5,21 @@
 //! ```
 //!
 //! `p_light[i]` is the density of x_i by a light subpath that reaches it through x_{i−1}, `p_eye[i]` by an eye subpath that
-//! reaches it through x_{i+1}; roulette included. Diracs are already removed: every strategy that can make the path has the
+//! reaches it through x_{i+1}; roulette, V of the edge and a(x_i) included (x₀ chosen on a light has none of them). Diracs are already removed: every strategy that can make the path has the
 //! same ones.
 
 use super::strategy::MAX_VERTICES;
 use super::vertex::{DISCRETE, Vertex};
 use super::walk::Context;
 use crate::math::Vec3;
-use crate::scene::TransportMode;
+use crate::scene::{Shape, TransportMode};
 
 /// The edge that joins the two subpaths.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Edge {
     /// Unit direction from y_{s−1} to z_{t−1}.
     pub w: Vec3,
-    /// Geometry term without visibility, m⁻².
+    /// Geometry term, V included, m⁻².
     pub geometry: f32,
 }
 
@@ -54,7 +54,7 @@ impl FullPath {
     /// Becomes the path y₀…y_{s−1} z_{t−1}…z₀ of two subpaths cut to s = `y.len()` and t = `z.len()` vertices, t ≥ 1. `edge`
     /// joins their ends; it is unused if s = 0.
     #[inline]
-    pub fn join(&mut self, context: &Context, y: &[Vertex], z: &[Vertex], edge: &Edge) {
+    pub fn join<F: Shape>(&mut self, context: &Context<F>, y: &[Vertex], z: &[Vertex], edge: &Edge) {
         let (s, t) = (y.len(), z.len());
         let k = s + t - 1;
         self.begin(context, k);
@@ -76,13 +76,15 @@ impl FullPath {
             self.join_at_light(context, z);
         } else {
             let (a, b) = (&y[s - 1], &z[t - 1]);
-            self.p_light[s] = leave_light_vertex_psa(context, a, s, edge.w) * edge.geometry;
-            self.p_eye[s - 1] = leave_eye_vertex_psa(context, b, t, -edge.w) * edge.geometry;
+            self.p_light[s] = leave_light_vertex_psa(context, a, s, edge.w) * edge.geometry * context.opacity(b);
+            self.p_eye[s - 1] = leave_eye_vertex_psa(context, b, t, -edge.w) * edge.geometry * context.opacity(a);
             if t >= 2 {
-                self.p_light[s + 1] = scatter_psa(context, b, -edge.w, TransportMode::Importance) * b.geometry_prev;
+                let before = context.opacity(&z[t - 2]);
+                self.p_light[s + 1] = scatter_psa(context, b, -edge.w, TransportMode::Importance) * b.geometry_prev * before;
             }
             if s >= 2 {
-                self.p_eye[s - 2] = scatter_psa(context, a, edge.w, TransportMode::Radiance) * a.geometry_prev;
+                let before = context.opacity(&y[s - 2]);
+                self.p_eye[s - 2] = scatter_psa(context, a, edge.w, TransportMode::Radiance) * a.geometry_prev * before;
             }
         }
         self.activate(context);
@@ -90,7 +92,7 @@ impl FullPath {
 
     /// t = 0: becomes the path of a light subpath y₀…y_{k−1} that went on to the point `lens` of the lens. An eye subpath could
     /// have chosen that point and left it towards y_{k−1}, which lies on the film.
-    pub fn join_at_lens(&mut self, context: &Context, y: &[Vertex], lens: &Vertex) {
+    pub fn join_at_lens<F: Shape>(&mut self, context: &Context<F>, y: &[Vertex], lens: &Vertex) {
         let k = y.len();
         self.begin(context, k);
         for (i, v) in y.iter().enumerate() {
@@ -98,21 +100,22 @@ impl FullPath {
         }
         self.p_light[k] = lens.pdf_fwd_area;
         self.p_eye[k] = context.view.pdf_lens_area();
-        self.p_eye[k - 1] = context.view.pdf_direction_psa_on_film(lens.w_prev) * lens.geometry_prev;
+        self.p_eye[k - 1] = context.view.pdf_direction_psa_on_film(lens.w_prev) * lens.geometry_prev * context.opacity(&y[k - 1]);
         self.activate(context);
     }
 
     /// s = 0: x₀ = z_{t−1} lies on a light, which could have chosen it and emitted towards z_{t−2}.
     #[inline]
-    fn join_at_light(&mut self, context: &Context, z: &[Vertex]) {
+    fn join_at_light<F: Shape>(&mut self, context: &Context<F>, z: &[Vertex]) {
         let (x0, lights) = (&z[z.len() - 1], &context.scene.lights);
         let light = &lights.list[x0.light as usize];
         self.p_light[0] = lights.pdf_origin(light, x0.w_prev);
-        self.p_light[1] = light.pdf_direction_psa(x0.n_g, x0.w_prev, context.view.pdf_disk_area) * x0.geometry_prev;
+        let leaves_psa = light.pdf_direction_psa(x0.n_g, x0.w_prev, context.view.pdf_disk_area);
+        self.p_light[1] = leaves_psa * x0.geometry_prev * context.opacity(&z[z.len() - 2]);
     }
 
     #[inline]
-    fn begin(&mut self, context: &Context, k: usize) {
+    fn begin<F: Shape>(&mut self, context: &Context<F>, k: usize) {
         self.k = k;
         self.samplable[..=k].fill(true);
         // A pinhole cannot be hit.
@@ -141,7 +144,7 @@ impl FullPath {
     }
 
     #[inline]
-    fn activate(&mut self, context: &Context) {
+    fn activate<F: Shape>(&mut self, context: &Context<F>) {
         let mut row = context.settings.strategies.row(self.k as u32);
         for (active, samplable) in self.active.iter_mut().zip(&self.samplable).take(self.k + 2) {
             *active = *samplable && row & 1 == 1;
@@ -158,25 +161,25 @@ impl Default for FullPath {
 
 /// P_σ⊥ with which the light subpath leaves its last vertex along `w`; roulette included.
 #[inline]
-fn leave_light_vertex_psa(context: &Context, y: &Vertex, s: usize, w: Vec3) -> f32 {
+fn leave_light_vertex_psa<F: Shape>(context: &Context<F>, y: &Vertex, s: usize, w: Vec3) -> f32 {
     if s == 1 {
         return context.scene.lights.list[y.light as usize].pdf_direction_psa(y.n_g, w, context.view.pdf_disk_area);
     }
-    y.survival * context.scene.bsdf(y.n_g, y.n_s, y.material).pdf_psa(y.w_prev, w, TransportMode::Importance)
+    y.survival * y.bsdf::<F>(context.scene).pdf_psa(y.w_prev, w, TransportMode::Importance)
 }
 
 /// P_σ⊥ with which the eye subpath leaves its last vertex along `w`; roulette included.
 #[inline]
-fn leave_eye_vertex_psa(context: &Context, z: &Vertex, t: usize, w: Vec3) -> f32 {
+fn leave_eye_vertex_psa<F: Shape>(context: &Context<F>, z: &Vertex, t: usize, w: Vec3) -> f32 {
     if t == 1 {
         // The connection has made sure that it meets the film.
         return context.view.pdf_direction_psa_on_film(w);
     }
-    z.survival * context.scene.bsdf(z.n_g, z.n_s, z.material).pdf_psa(z.w_prev, w, TransportMode::Radiance)
+    z.survival * z.bsdf::<F>(context.scene).pdf_psa(z.w_prev, w, TransportMode::Radiance)
 }
 
 /// P_σ⊥ with which a walk of the other subpath, arriving along `w`, would go on to this vertex's predecessor.
 #[inline]
-fn scatter_psa(context: &Context, v: &Vertex, w: Vec3, mode: TransportMode) -> f32 {
-    v.survival * context.scene.bsdf(v.n_g, v.n_s, v.material).pdf_psa(w, v.w_prev, mode)
+fn scatter_psa<F: Shape>(context: &Context<F>, v: &Vertex, w: Vec3, mode: TransportMode) -> f32 {
+    v.survival * v.bsdf::<F>(context.scene).pdf_psa(w, v.w_prev, mode)
 }

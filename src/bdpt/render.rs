@@ -14,6 +14,7 @@ use super::walk::Context;
 use crate::film::{Film, Layers, Means, Rect, Row, Splats};
 use crate::math::Vec3;
 use crate::rng::{BLOCK_SPLAT, SampleId};
+use crate::scene::{Matte, Opaque, Shape};
 use rayon::prelude::*;
 
 /// Which strategies run, how long the walks must be, and where each strategy's images are in the film. Layer 0 of either
@@ -129,7 +130,21 @@ pub fn splat_quantum(context: &Context) -> f32 {
 }
 
 /// Renders pass number `pass` of the rows of these numbers, on all threads.
+///
+/// It runs in the narrowest shape that fits the scene.
 pub fn render_rows(context: &Context, plan: &Plan, film: &mut Film, crop: Rect, pass: u32, rows: &[u32]) -> Counts {
+    let Context { scene, view, settings, .. } = *context;
+    if scene.features.fit::<Matte>() {
+        render_rows_as(&Context { scene, view, settings, shape: Matte }, plan, film, crop, pass, rows)
+    } else if scene.features.fit::<Opaque>() {
+        render_rows_as(&Context { scene, view, settings, shape: Opaque }, plan, film, crop, pass, rows)
+    } else {
+        render_rows_as(context, plan, film, crop, pass, rows)
+    }
+}
+
+/// [`render_rows`] in a given shape, which must fit the scene.
+pub fn render_rows_as<F: Shape>(context: &Context<F>, plan: &Plan, film: &mut Film, crop: Rect, pass: u32, rows: &[u32]) -> Counts {
     let (rows, splats) = film.rows(rows);
     rows.into_par_iter()
         .map_init(Sample::default, |sample, mut row| {
@@ -151,7 +166,7 @@ struct Target<'a> {
 }
 
 impl Target<'_> {
-    fn render_row(&mut self, context: &Context, plan: &Plan, sample: &mut Sample, row: &mut Row) {
+    fn render_row<F: Shape>(&mut self, context: &Context<F>, plan: &Plan, sample: &mut Sample, row: &mut Row) {
         for x in 0..context.view.size[0] {
             let id = SampleId { x, y: row.y, sample: self.pass, seed: context.settings.seed };
             let eye_vertices = if self.crop.contains([x, row.y]) { plan.eye_vertices } else { 0 };
@@ -173,7 +188,7 @@ impl Target<'_> {
 
     /// t = 0: rare, and so kept apart.
     #[inline(never)]
-    fn add_crossings(&mut self, context: &Context, plan: &Plan, sample: &mut Sample, row: &mut Row) {
+    fn add_crossings<F: Shape>(&mut self, context: &Context<F>, plan: &Plan, sample: &mut Sample, row: &mut Row) {
         for i in 0..sample.crossings.len() {
             let s = sample.crossings[i].s;
             if let Some(&(strategy, slot)) = plan.by_t[0].iter().find(|(x, _)| x.s == s)

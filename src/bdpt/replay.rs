@@ -14,7 +14,7 @@ use super::vertex::{AT_INFINITY, AT_POINT, DELTA, DISCRETE, End, ON_LIGHT, ON_SU
 use super::walk::{Context, Step};
 use crate::math::{Vec2, Vec3};
 use crate::rng::SampleId;
-use crate::scene::TransportMode;
+use crate::scene::{General, TransportMode};
 
 /// A path as one strategy made it.
 #[derive(Clone, Debug)]
@@ -137,11 +137,14 @@ fn walk(
         let mut v = bare(points[i], ON_SURFACE | points[i].flags & AT_INFINITY);
         let (w, geometry) = towards(&from, &v);
         v.w_prev = -w;
-        v.geometry_prev = geometry;
-        v.pdf_fwd_area = step.pdf_fwd_psa * v.geometry_prev;
+        v.geometry_prev = geometry
+            * match mode {
+                TransportMode::Importance => context.seen_through(&from, &v, w),
+                TransportMode::Radiance => context.seen_through(&v, &from, -w),
+            };
+        v.pdf_fwd_area = step.pdf_fwd_psa * v.geometry_prev * context.opacity(&v);
         v.alpha = step.alpha;
-        let scatters = context.settings.roulette && !v.has(AT_INFINITY);
-        v.survival = if scatters { context.scene.materials[v.material as usize].survival } else { 1.0 };
+        v.survival = if v.has(AT_INFINITY) { 1.0 } else { context.survival(&v) };
         if v.pdf_fwd_area <= 0.0 || !v.pdf_fwd_area.is_finite() {
             return Err(ReplayError::NotWalkable(i));
         }
@@ -152,7 +155,7 @@ fn walk(
             if scattered.delta {
                 v.flags |= DELTA;
             }
-            vertices[i - 1].pdf_rev_area = v.survival * scattered.pdf_rev_psa * v.geometry_prev;
+            vertices[i - 1].pdf_rev_area = v.survival * scattered.pdf_rev_psa * v.geometry_prev * context.opacity(&from);
             let pdf_fwd_psa = scattered.pdf_fwd_psa * v.survival;
             step = Step { direction, pdf_fwd_psa, alpha: v.alpha * scattered.f / pdf_fwd_psa };
         }
@@ -163,7 +166,7 @@ fn walk(
 
 /// What sampling would have returned had it drawn `next`.
 fn scatter(context: &Context, v: &Vertex, next: Vec3, mode: TransportMode) -> Option<crate::scene::BsdfSample> {
-    let bsdf = context.scene.bsdf(v.n_g, v.n_s, v.material);
+    let bsdf = v.bsdf::<General>(context.scene);
     if bsdf.material.is_dirac() {
         // A Dirac component is recognised by its direction; the first number chooses the component.
         let candidates = [0.0, 1.0f32.next_down()].into_iter().filter_map(|u| bsdf.sample(v.w_prev, mode, u, Vec2::ZERO));

@@ -1,7 +1,7 @@
 //! Vertices of subpaths, and why a subpath ends.
 
 use crate::math::{Vec3, direction_between, geometry_term};
-use crate::scene::{NONE, SurfacePoint};
+use crate::scene::{Bsdf, Look, NONE, Scene, Shape, SurfacePoint};
 use crate::shared_struct;
 
 /// The vertex is the lens (z₀).
@@ -53,8 +53,11 @@ shared_struct! {
         pub pdf_rev_area: f32,
         /// Survival probability q of the roulette here; 1 at a first vertex and where roulette is off.
         pub survival: f32,
-        /// Geometry term (without V) of the edge to the previous vertex, m⁻²; 0 at the first.
+        /// Geometry term (with V, which walks only do not see as 1 behind surfaces that are partly there) of the edge to the
+        /// previous vertex, m⁻²; 0 at the first.
         pub geometry_prev: f32,
+        /// What the material looks like here, a(x) included; nothing on the lens and where no surface is.
+        pub look: Look,
     }
 }
 
@@ -77,7 +80,14 @@ impl Vertex {
             pdf_rev_area: 0.0,
             survival: 1.0,
             geometry_prev: 0.0,
+            look: point.look,
         }
+    }
+
+    /// The scattering model here.
+    #[inline]
+    pub fn bsdf<'a, F: Shape>(&'a self, scene: &'a Scene) -> Bsdf<'a, F> {
+        Bsdf::at([self.n_g, self.n_s], &self.look, &scene.materials[self.material as usize])
     }
 
     /// Is the sampled component a Dirac?

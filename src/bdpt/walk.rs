@@ -6,6 +6,13 @@
 //! pdf_fwd_area(y_{i+1}) = q_i P_σ⊥(y_i→y_{i+1}) G(y_i,y_{i+1})     pdf_rev_area(y_{i−1}) = q_i P_σ⊥(y_i→y_{i−1}) G(y_i,y_{i−1})
 //! ```
 //!
+//! A hit is accepted with probability a; an edge has V = Π(1−a) over the surfaces it passed. Both are in the densities, and
+//! cancel from α:
+//!
+//! ```text
+//! pdf_fwd_area(y_{i+1}) = q_i P_σ⊥ G V a(y_{i+1})        pdf_rev_area(y_{i−1}) = q_i P_σ⊥ G V a(y_{i−1})
+//! ```
+//!
 //! An eye subpath that leaves the scene ends in a vertex at infinity if an environment is there. A light subpath crosses the
 //! lens as if it were not there: [`super::crossing`] looks for that.
 //!
@@ -13,22 +20,28 @@
 
 use super::settings::Settings;
 use super::vertex::{AT_INFINITY, AT_POINT, DELTA, DISCRETE, End, ON_LENS, ON_LIGHT, ON_SURFACE, Subpath, Vertex};
+use super::visibility::visibility;
 use crate::math::{Vec2, Vec3, offset_ray_origin, sample_disk};
 use crate::rng::{
-    BLOCK_EYE_START, BLOCK_EYE_VERTEX, BLOCK_LIGHT_DIRECTION, BLOCK_LIGHT_PLACE, BLOCK_LIGHT_START, BLOCK_LIGHT_VERTEX, SampleId, pair,
+    BLOCK_ALPHA, BLOCK_EYE_START, BLOCK_EYE_VERTEX, BLOCK_LIGHT_DIRECTION, BLOCK_LIGHT_PLACE, BLOCK_LIGHT_START, BLOCK_LIGHT_VERTEX,
+    SampleId, pair,
 };
+use crate::scene::alpha::Draws;
 use crate::scene::light::{AREA, DIRECTIONAL, ENVIRONMENT};
-use crate::scene::{NONE, Ray, Scene, SurfacePoint, TransportMode, View};
+use crate::scene::material::VARIES;
+use crate::scene::{General, Look, NONE, Ray, Scene, Shape, SurfacePoint, TransportMode, View};
 
 /// What every part of the estimator reads.
 #[derive(Clone, Copy, Debug)]
-pub struct Context<'a> {
+pub struct Context<'a, F = General> {
     /// The scene.
     pub scene: &'a Scene,
     /// The camera with its film.
     pub view: &'a View,
     /// The user's choices.
     pub settings: &'a Settings,
+    /// What the loops are compiled for; it must fit the scene.
+    pub shape: F,
 }
 
 /// The next step of a walk: where to, with what density, and the α that arrives.
@@ -42,11 +55,22 @@ pub struct Step {
     pub alpha: Vec3,
 }
 
-impl Context<'_> {
-    /// Survival probability at a surface point.
+impl<'a> Context<'a> {
+    /// The context of any scene.
+    pub fn new(scene: &'a Scene, view: &'a View, settings: &'a Settings) -> Self {
+        Self { scene, view, settings, shape: General }
+    }
+}
+
+impl<F: Shape> Context<'_, F> {
+    /// Survival probability at a surface vertex.
     #[inline]
-    fn survival(&self, material: u32) -> f32 {
-        if self.settings.roulette { self.scene.materials[material as usize].survival } else { 1.0 }
+    pub fn survival(&self, v: &Vertex) -> f32 {
+        if !self.settings.roulette {
+            return 1.0;
+        }
+        let material = &self.scene.materials[v.material as usize];
+        if F::TEXTURES && material.has(VARIES) { material.survival_of(v.look.color, v.look.metallic) } else { material.survival }
     }
 
     /// y₀ on a light, drawn with the walk's own density: the numbers of `block` choose the light and the point or the cell of
@@ -57,10 +81,18 @@ impl Context<'_> {
         let index = lights.choose(pair(u, 0))?;
         let light = &lights.list[index as usize];
         if light.kind == AREA {
-            let (point, pdf) = (lights.point_on(self.scene, light, pair(u, 2)), light.pdf_area());
-            return Some(Vertex { alpha: light.l_e_0() / pdf, pdf_fwd_area: pdf, ..Vertex::on(&point, ON_LIGHT) });
+            let y0 = Vertex::on(&lights.point_on::<F>(self.scene, light, pair(u, 2)), ON_LIGHT);
+            let pdf = light.pdf_area();
+            let l_e_0 = light.l_e_0() * self.emission_factor(&y0) * self.opacity(&y0);
+            return Some(Vertex { alpha: l_e_0 / pdf, pdf_fwd_area: pdf, ..y0 });
         }
         Some(self.sample_light_beyond_surfaces(id, index, pair(u, 2), place))
+    }
+
+    /// What multiplies the radiance of an area light at a vertex on it: its texture.
+    #[inline(always)]
+    pub fn emission_factor(&self, v: &Vertex) -> Vec3 {
+        if F::TEXTURES { self.scene.emission_factor::<F>(v.triangle, v.material, v.look.barycentric) } else { Vec3::ONE }
     }
 
     /// y₀ on a light that is no surface. Kept apart: most scenes never come here.
@@ -81,7 +113,7 @@ impl Context<'_> {
         let lights = &self.scene.lights;
         let light = &lights.list[y0.light as usize];
         let (l_e_0, pdf) = match light.kind {
-            AREA => (light.l_e_0(), light.pdf_area()),
+            AREA => (light.l_e_0() * self.emission_factor(&y0) * self.opacity(&y0), light.pdf_area()),
             ENVIRONMENT => (lights.l_e(light, y0.n_g, y0.n_g), lights.pdf_origin(light, y0.n_g)),
             _ => (light.l_e_0(), light.pmf),
         };
@@ -173,15 +205,16 @@ impl Context<'_> {
             let from = &vertices[last];
             *rays += 1;
             let origin = offset_ray_origin(from.position, from.error, from.n_g, step.direction);
-            let Some(point) = self.scene.intersect(&Ray { origin, direction: step.direction }) else {
+            let draws = || Draws(id.words(first_block + BLOCK_ALPHA + last as u32));
+            let Some(point) = self.scene.walk::<F>(&Ray { origin, direction: step.direction }, draws) else {
                 if let (TransportMode::Radiance, Some(light)) = (mode, self.scene.lights.environment_index()) {
                     let vertex = self.arrive_at_infinity(from, light, step);
                     vertices.push(vertex);
                 }
                 return End::Escaped;
             };
-            let Some(mut vertex) = arrive(from, &point, step) else { return End::Absorbed };
-            vertex.survival = self.survival(vertex.material);
+            let Some(mut vertex) = self.arrive(from, &point, step, mode) else { return End::Absorbed };
+            vertex.survival = self.survival(&vertex);
 
             if vertices.len() + 1 == max_vertices {
                 vertices.push(vertex);
@@ -192,15 +225,14 @@ impl Context<'_> {
                 vertices.push(vertex);
                 return End::Roulette;
             }
-            let bsdf = self.scene.bsdf(vertex.n_g, vertex.n_s, vertex.material);
-            let Some(sample) = bsdf.sample(vertex.w_prev, mode, u[0], pair(u, 1)) else {
+            let Some(sample) = vertex.bsdf::<F>(self.scene).sample(vertex.w_prev, mode, u[0], pair(u, 1)) else {
                 vertices.push(vertex);
                 return End::Absorbed;
             };
             if sample.delta {
                 vertex.flags |= DELTA;
             }
-            vertices[last].pdf_rev_area = vertex.survival * sample.pdf_rev_psa * vertex.geometry_prev;
+            vertices[last].pdf_rev_area = vertex.survival * sample.pdf_rev_psa * vertex.geometry_prev * self.opacity(&vertices[last]);
             *step = Step {
                 direction: sample.w,
                 pdf_fwd_psa: sample.pdf_fwd_psa * vertex.survival,
@@ -213,10 +245,43 @@ impl Context<'_> {
         }
         End::MaxEdges
     }
+    /// The vertex at `point`, reached from `from`; `None` if the two coincide or the edge lies in a surface's plane.
+    #[inline(always)]
+    fn arrive(&self, from: &Vertex, point: &SurfacePoint, step: &Step, mode: TransportMode) -> Option<Vertex> {
+        let vertex = Vertex::on(point, ON_SURFACE);
+        let (w, geometry) = from.edge_to(&vertex);
+        let geometry = geometry
+            * match mode {
+                TransportMode::Importance => self.seen_through(from, &vertex, w),
+                TransportMode::Radiance => self.seen_through(&vertex, from, -w),
+            };
+        let pdf = step.pdf_fwd_psa * geometry * self.opacity(&vertex);
+        (pdf > 0.0 && pdf.is_finite()).then_some(Vertex {
+            alpha: step.alpha,
+            w_prev: -w,
+            pdf_fwd_area: pdf,
+            geometry_prev: geometry,
+            ..vertex
+        })
+    }
+
+    /// V of an edge that a walk took, along `w` from its light end to its eye end: what it passed was only partly there.
+    #[inline(always)]
+    pub fn seen_through(&self, a: &Vertex, b: &Vertex, w: Vec3) -> f32 {
+        if F::ALPHA && self.scene.features.alpha_blend { visibility(self, a, b, w) } else { 1.0 }
+    }
+
+    /// a of a vertex.
+    #[inline(always)]
+    pub fn opacity(&self, v: &Vertex) -> f32 {
+        if F::ALPHA { v.look.opacity } else { 1.0 }
+    }
+
     /// The environment's vertex at the end of an eye subpath.
     #[inline(never)]
     fn arrive_at_infinity(&self, from: &Vertex, light: u32, step: &Step) -> Vertex {
-        let geometry = from.n_g.dot(step.direction).abs();
+        let towards = Vertex { flags: AT_INFINITY, ..Vertex::on(&free_point(from.position, -step.direction), 0) };
+        let geometry = from.n_g.dot(step.direction).abs() * self.seen_through(&towards, from, -step.direction);
         let position = from.position + step.direction * self.view.sphere.beyond(from.position);
         Vertex {
             position,
@@ -234,14 +299,5 @@ impl Context<'_> {
 /// A point on no surface.
 #[inline]
 fn free_point(position: Vec3, n_g: Vec3) -> SurfacePoint {
-    SurfacePoint { position, n_g, n_s: n_g, error: 0.0, triangle: NONE, material: NONE, light: NONE }
-}
-
-/// The vertex at `point`, reached from `from`; `None` if the two coincide or the edge lies in a surface's plane.
-#[inline]
-fn arrive(from: &Vertex, point: &SurfacePoint, step: &Step) -> Option<Vertex> {
-    let vertex = Vertex::on(point, ON_SURFACE);
-    let (w, geometry) = from.edge_to(&vertex);
-    let pdf = step.pdf_fwd_psa * geometry;
-    (pdf > 0.0 && pdf.is_finite()).then_some(Vertex { alpha: step.alpha, w_prev: -w, pdf_fwd_area: pdf, geometry_prev: geometry, ..vertex })
+    SurfacePoint { position, n_g, n_s: n_g, error: 0.0, triangle: NONE, material: NONE, light: NONE, look: Look::NOTHING }
 }

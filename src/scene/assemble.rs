@@ -2,11 +2,14 @@
 //!
 //! Nothing here knows a file format: the glTF loader fills [`Parts`], and so may a test.
 
+use super::attributes::{Arrays, Attributes, Colors, Normals, Tangents, Uvs};
 use super::bvh::Bvh;
 use super::light::Light;
 use super::sphere::Sphere;
-use super::{Camera, Environment, Lens, Lights, Material, NONE, Normals, Scene, SceneError, SceneFeatures, Triangle};
-use crate::math::{DVec3, Vec3};
+use super::texture::{Image, TextureUse, Textures};
+use super::{Camera, Environment, Lens, Lights, Material, NONE, Scene, SceneError, SceneFeatures, Triangle};
+use crate::math::{DVec3, Vec2, Vec3};
+use glam::Vec4;
 use std::path::Path;
 
 /// Largest extent of a scene, m: beyond it, products of lengths leave the range of f32.
@@ -21,6 +24,20 @@ pub struct PartTriangle {
     pub normals: Option<[Vec3; 3]>,
     /// Index into [`Parts::materials`].
     pub material: u32,
+    /// Index into [`Parts::attributes`], or [`NONE`].
+    pub attributes: u32,
+}
+
+/// What a triangle has for its textures, at its three corners.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PartAttributes {
+    /// Both sets of texture coordinates; v points down.
+    pub uvs: [Option<[Vec2; 3]>; 2],
+    /// Tangents, of any length; w is the sign of the bitangent beside the normals as they are in [`PartTriangle`]. Without
+    /// normals they do not count.
+    pub tangents: Option<[Vec4; 3]>,
+    /// Linear colours.
+    pub colors: Option<[Vec4; 3]>,
 }
 
 impl PartTriangle {
@@ -118,8 +135,14 @@ pub struct Parts {
     pub name: String,
     /// All triangles.
     pub triangles: Vec<PartTriangle>,
-    /// Materials with their names.
+    /// What some triangles have for their textures.
+    pub attributes: Vec<PartAttributes>,
+    /// Materials with their names; their textures are indices into `textures`.
     pub materials: Vec<(String, Material)>,
+    /// How images are used.
+    pub textures: Vec<TextureUse>,
+    /// Images.
+    pub images: Vec<Image>,
     /// Cameras; [`Parts::with_default_camera`] adds one if there is none.
     pub cameras: Vec<PartCamera>,
     /// Lights of no extent, with their names.
@@ -201,7 +224,7 @@ impl Scene {
                 return Err(SceneError::element(Path::new(&parts.name), format!("{kind} '{name}'"), reason));
             }
         }
-        let (mut triangles, normals) = recentred(&parts, origin)?;
+        let (mut triangles, attributes) = recentred(&parts, origin)?;
         let dropped = parts.triangles.len() - triangles.len();
         if triangles.is_empty() && !sky {
             return Err(parts.error(format!("the scene has no triangles: all {dropped} are without area")));
@@ -219,22 +242,24 @@ impl Scene {
         let bvh = Bvh::build(&mut triangles);
         let (material_names, materials): (Vec<_>, Vec<_>) = parts.materials.into_iter().unzip();
         let others = parts.lights.iter().filter_map(|(name, light)| Some((name.clone(), light.relative_to(origin)?))).collect();
-        let lights = Lights::collect(&mut triangles, &materials, others, parts.environment, sphere.radius);
-        let features = SceneFeatures::of(&triangles, &materials, &lights);
+        let textures = Textures::new(&parts.images, &parts.textures);
         let mut scene = Self {
             name: parts.name,
             origin,
             sphere,
             triangles,
-            normals,
+            attributes,
             materials,
             material_names,
-            lights,
+            textures,
+            lights: Lights::default(),
             bvh,
             cameras,
             notes: parts.notes,
-            features,
+            features: SceneFeatures::default(),
         };
+        scene.collect_lights(others, parts.environment);
+        scene.features = SceneFeatures::of(&scene.triangles, &scene.attributes, &scene.materials, &scene.lights);
         for index in 0..scene.cameras.len() {
             if scene.cameras[index].lens.focus_distance.is_nan() {
                 scene.cameras[index].lens.focus_distance = scene.default_focus(&scene.cameras[index]);
@@ -256,31 +281,58 @@ impl Scene {
     }
 }
 
-/// The triangles that have an area, relative to `origin`, with the normals that differ from the geometric ones.
-fn recentred(parts: &Parts, origin: DVec3) -> Result<(Vec<Triangle>, Vec<Normals>), SceneError> {
+/// The triangles that have an area, relative to `origin`, with what they have beyond their corners.
+fn recentred(parts: &Parts, origin: DVec3) -> Result<(Vec<Triangle>, Arrays), SceneError> {
     let mut triangles = Vec::with_capacity(parts.triangles.len());
-    let mut normals = Vec::new();
+    let mut arrays = Arrays::default();
     for part in &parts.triangles {
         if part.material as usize >= parts.materials.len() {
             return Err(parts.error(format!("a triangle uses material {}, of {} there are", part.material, parts.materials.len())));
         }
         let Some(([p0, p1, p2], n_g)) = part.relative_to(origin) else { continue };
-        let mut triangle = Triangle { p0, material: part.material, p1, light: NONE, p2, normals: NONE };
-        if let Some(corners) = part.normals.and_then(|n| shading_normals(n, n_g, part)) {
-            triangle.normals = normals.len() as u32;
-            normals.push(corners);
-        }
-        triangles.push(triangle);
+        let attributes = arrays.add(part, n_g, parts.attributes.get(part.attributes as usize));
+        triangles.push(Triangle { p0, material: part.material, p1, light: NONE, p2, attributes });
     }
-    Ok((triangles, normals))
+    Ok((triangles, arrays))
 }
 
-/// The corners' normals, unit and on the side of `n_g`; `None` if none differs from the geometric normal.
-fn shading_normals(corners: [Vec3; 3], n_g: Vec3, part: &PartTriangle) -> Option<Normals> {
+impl Arrays {
+    /// Adds what a triangle has beyond its corners; its index in the list, [`NONE`] if that is nothing.
+    fn add(&mut self, part: &PartTriangle, n_g: Vec3, own: Option<&PartAttributes>) -> u32 {
+        let mut entry = Attributes::PLAIN;
+        let sides = part.normals.map(|n| shading_normals(n, n_g, part));
+        if let Some((corners, true, _)) = sides {
+            entry.normals = push(&mut self.normals, corners);
+        }
+        if let Some(own) = own {
+            let uvs = own.uvs.map(|set| set.map_or(NONE, |[uv0, uv1, uv2]| push(&mut self.uvs, Uvs { uv0, uv1, uv2 })));
+            [entry.uvs_0, entry.uvs_1] = uvs;
+            entry.colors = own.colors.map_or(NONE, |[c0, c1, c2]| push(&mut self.colors, Colors { c0, c1, c2 }));
+            if let (Some([t0, t1, t2]), Some((_, _, turned))) = (own.tangents, sides) {
+                // A normal that went to the other side takes the bitangent along.
+                let sign = if turned { -t0.w } else { t0.w };
+                let [t0, t1, t2] = [t0, t1, t2].map(Vec4::truncate);
+                entry.tangents = push(&mut self.tangents, Tangents { t0, sign: 1.0f32.copysign(sign), t1, _pad0: 0, t2, _pad1: 0 });
+            }
+        }
+        if entry == Attributes::PLAIN { NONE } else { push(&mut self.list, entry) }
+    }
+}
+
+/// Appends an item; its index.
+fn push<T>(list: &mut Vec<T>, item: T) -> u32 {
+    list.push(item);
+    list.len() as u32 - 1
+}
+
+/// The corners' normals, unit and on the side of `n_g`; whether any differs from the geometric normal; whether the first one
+/// had to be turned around.
+fn shading_normals(corners: [Vec3; 3], n_g: Vec3, part: &PartTriangle) -> (Normals, bool, bool) {
     /// Deviations below this (radians) are the file's rounding, not a wish.
     const SAME: f32 = 5e-6;
     let [p0, p1, p2] = part.corners;
     let exact = (p1 - p0).cross(p2 - p0).normalize().as_vec3();
+    let turned = corners[0].dot(n_g) < 0.0;
     let mut differs = false;
     let [n0, n1, n2] = corners.map(|n| {
         let n = n.try_normalize().unwrap_or(n_g);
@@ -290,7 +342,7 @@ fn shading_normals(corners: [Vec3; 3], n_g: Vec3, part: &PartTriangle) -> Option
         differs |= (n - exact).length() > SAME && n != n_g;
         n
     });
-    differs.then_some(Normals { n0, _pad0: 0, n1, _pad1: 0, n2, _pad2: 0 })
+    (Normals { n0, _pad0: 0, n1, _pad1: 0, n2, _pad2: 0 }, differs, turned)
 }
 
 /// The camera relative to `origin`, its axes orthonormal; `None` if its directions or its angle make no picture.

@@ -18,8 +18,22 @@
 //!
 //! so an eye walk is multiplied by (η_E/η_L)² T/P and a light walk by T/P: radiance is compressed, importance is not.
 
-use super::{DIELECTRIC, LAMBERT, MIRROR, Material};
-use crate::math::{Frame, INV_PI, Vec2, Vec3, reflect, refract, sample_cosine_hemisphere};
+//!
+//! To add a model: a file with its `eval`, `pdf` and `sample`, a kind in `scene::material`, an arm in the three matches here.
+
+mod coat;
+mod conductor;
+mod dielectric;
+mod ggx;
+mod lambert;
+mod mirror;
+
+pub use dielectric::fresnel_dielectric;
+
+use super::material::{COAT, CONDUCTOR, DIELECTRIC, LAMBERT, MIRROR};
+use super::{General, Look, Material, Shape};
+use crate::math::{Vec2, Vec3};
+use std::marker::PhantomData;
 
 /// What a walk carries. It decides how directions are drawn, never what f̄ is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,22 +81,33 @@ pub struct BsdfSample {
 
 /// A material at a point with its two normals.
 #[derive(Clone, Copy, Debug)]
-pub struct Bsdf<'a> {
+pub struct Bsdf<'a, F = General> {
     /// Geometric normal, unit.
     pub n_g: Vec3,
     /// Shading normal, unit, on the same side.
     pub n_s: Vec3,
     /// The material.
     pub material: &'a Material,
+    /// What it looks like here.
+    pub look: &'a Look,
     /// Are both normals the same? Then there is less to compute.
     flat: bool,
+    shape: PhantomData<F>,
 }
 
 impl<'a> Bsdf<'a> {
-    /// A material at a point with the given normals.
+    /// A material at a point with the given normals, geometric and shading; `look` is what it looks like there.
     #[inline]
-    pub fn new(n_g: Vec3, n_s: Vec3, material: &'a Material) -> Self {
-        Self { n_g, n_s, material, flat: n_g == n_s }
+    pub fn new(n_g: Vec3, n_s: Vec3, material: &'a Material, look: &'a Look) -> Self {
+        Self::at([n_g, n_s], look, material)
+    }
+}
+
+impl<'a, F: Shape> Bsdf<'a, F> {
+    /// A material at a point with the given normals, geometric and shading, where it looks so.
+    #[inline]
+    pub fn at([n_g, n_s]: [Vec3; 2], look: &'a Look, material: &'a Material) -> Self {
+        Self { n_g, n_s, material, look, flat: n_g == n_s, shape: PhantomData }
     }
 
     /// On which side of the surface `w` lies: +1, −1, or 0 where the two normals disagree.
@@ -102,23 +127,43 @@ impl<'a> Bsdf<'a> {
     #[inline]
     pub fn eval(&self, w_l: Vec3, w_e: Vec3) -> Vec3 {
         let side = self.side(w_l);
-        if self.material.kind != LAMBERT || side == 0.0 || side != self.side(w_e) {
+        if side == 0.0 || side != self.side(w_e) {
             return Vec3::ZERO;
         }
-        self.material.color * (INV_PI * self.normal_ratio(w_l))
+        let f = match self.material.kind {
+            LAMBERT => lambert::eval(self.look),
+            CONDUCTOR if F::GLOSSY => conductor::eval(self.look, self.n_s * side, w_l, w_e),
+            COAT if F::GLOSSY => coat::eval(self.material, self.look, self.n_s * side, w_l, w_e),
+            _ => return Vec3::ZERO,
+        };
+        f * self.normal_ratio(w_l)
     }
 
     /// Density, per projected solid angle about n_g, with which a walk that came along `w_in` continues along `w_out`;
-    /// Diracs left out. A Lambert walk draws from f̄ itself: cosine about n_s for ω_L, about n_g for ω_E.
+    /// Diracs left out.
     #[inline]
     pub fn pdf_psa(&self, w_in: Vec3, w_out: Vec3, mode: TransportMode) -> f32 {
         let side = self.side(w_in);
-        if self.material.kind != LAMBERT || side == 0.0 || side != self.side(w_out) {
+        if side == 0.0 || side != self.side(w_out) {
             return 0.0;
         }
+        match self.material.kind {
+            LAMBERT => self.diffuse_pdf_psa(w_out, mode),
+            CONDUCTOR if F::GLOSSY => conductor::pdf_sa(self.look, self.n_s * side, w_in, w_out) / w_out.dot(self.n_g).abs(),
+            COAT if F::GLOSSY => {
+                let (q, glossy) = coat::pdf_sa(self.material, self.look, self.n_s * side, w_in, w_out);
+                q * glossy / w_out.dot(self.n_g).abs() + (1.0 - q) * self.diffuse_pdf_psa(w_out, mode)
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// Density of a diffuse draw: the cosine about n_s for ω_L, about n_g for ω_E, which is f̄ itself up to a factor.
+    #[inline]
+    fn diffuse_pdf_psa(&self, w_out: Vec3, mode: TransportMode) -> f32 {
         match mode {
-            TransportMode::Radiance => INV_PI * self.normal_ratio(w_out),
-            TransportMode::Importance => INV_PI,
+            TransportMode::Radiance => lambert::PDF_PSA * self.normal_ratio(w_out),
+            TransportMode::Importance => lambert::PDF_PSA,
         }
     }
 
@@ -129,24 +174,22 @@ impl<'a> Bsdf<'a> {
         if side == 0.0 {
             return None;
         }
-        match self.material.kind {
-            LAMBERT => self.sample_lambert(w_in, side, mode, u),
-            MIRROR => {
-                let cos = w_in.dot(self.n_s).abs();
-                let r = self.material.color;
-                self.dirac(w_in, reflect(w_in, self.n_s), mode, (r + (Vec3::ONE - r) * (1.0 - cos).powi(5), 1.0), 1.0)
+        let n_s = self.n_s * side;
+        let diffuse_axis = if mode == TransportMode::Radiance { n_s } else { self.n_g * side };
+        let w = match self.material.kind {
+            LAMBERT => lambert::sample(diffuse_axis, u),
+            CONDUCTOR if F::GLOSSY => conductor::sample(self.look, n_s, w_in, u),
+            COAT if F::GLOSSY => coat::sample(self.material, self.look, [n_s, diffuse_axis], w_in, (u_component, u)),
+            MIRROR => return self.dirac(w_in, &mirror::sample(self.look, self.n_s, w_in), mode),
+            kind => {
+                let solid = kind == DIELECTRIC;
+                return self.dirac(
+                    w_in,
+                    &dielectric::sample(self.material, self.look, self.n_s, (w_in, side), (solid, u_component))?,
+                    mode,
+                );
             }
-            kind => self.sample_dielectric(w_in, side, mode, kind == DIELECTRIC, u_component),
-        }
-    }
-
-    #[inline]
-    fn sample_lambert(&self, w_in: Vec3, side: f32, mode: TransportMode, u: Vec2) -> Option<BsdfSample> {
-        let axis = match mode {
-            TransportMode::Radiance => self.n_s,
-            TransportMode::Importance => self.n_g,
         };
-        let w = Frame::around(axis * side).to_world(sample_cosine_hemisphere(u));
         if self.side(w) != side {
             return None;
         }
@@ -160,52 +203,37 @@ impl<'a> Bsdf<'a> {
         })
     }
 
+    /// What a Dirac component gives a walk of this mode.
     #[inline]
-    fn sample_dielectric(&self, w_in: Vec3, side: f32, mode: TransportMode, solid: bool, u_component: f32) -> Option<BsdfSample> {
-        // Index on the incoming side over the index on the other: a thin sheet has the same medium on both.
-        let ior = self.material.ior;
-        let eta = if side > 0.0 || !solid { 1.0 / ior } else { ior };
-        let reflectance = fresnel_dielectric(w_in.dot(self.n_s).abs(), eta);
-        let reflectance = if solid { reflectance } else { 2.0 * reflectance / (1.0 + reflectance) };
-        if u_component < reflectance {
-            return self.dirac(w_in, reflect(w_in, self.n_s), mode, (Vec3::splat(reflectance), reflectance), 1.0);
-        }
-        let transmittance = 1.0 - reflectance;
-        let (w, eta) = if solid { (refract(w_in, self.n_s, eta)?, eta) } else { (-w_in, 1.0) };
-        // (η_L/η_E)²: an eye walk comes from the eye's side, a light walk from the light's.
-        let eta_l_over_e = if mode == TransportMode::Importance { eta } else { 1.0 / eta };
-        self.dirac(w_in, w, mode, (self.material.color * transmittance, transmittance), eta_l_over_e * eta_l_over_e)
-    }
-
-    /// Assembles a Dirac sample from its (reflectance or transmittance, probability) and (η_L/η_E)².
-    #[inline]
-    fn dirac(&self, w_in: Vec3, w: Vec3, mode: TransportMode, (scale, probability): (Vec3, f32), eta2: f32) -> Option<BsdfSample> {
+    fn dirac(&self, w_in: Vec3, ray: &DiracRay, mode: TransportMode) -> Option<BsdfSample> {
+        let w = ray.w;
         // Reflection must stay on its side and refraction change it, for both normals.
         let stays = w_in.dot(self.n_s) * w.dot(self.n_s) > 0.0;
         let (side_in, side_out) = (self.side(w_in), self.side(w));
         if side_out == 0.0 || (side_in == side_out) != stays {
             return None;
         }
+        // (η_L/η_E)²: an eye walk comes from the eye's side, a light walk from the light's.
+        let eta_l_over_e = if mode == TransportMode::Importance { ray.eta } else { 1.0 / ray.eta };
         let (w_l, w_e) = mode.light_eye(w_in, w);
-        let pdf_e = probability * self.normal_ratio(w_e);
-        let pdf_l = probability * eta2 * self.normal_ratio(w_l);
+        let pdf_e = ray.probability * self.normal_ratio(w_e);
+        let pdf_l = ray.probability * (eta_l_over_e * eta_l_over_e) * self.normal_ratio(w_l);
         let (pdf_fwd_psa, pdf_rev_psa) = match mode {
             TransportMode::Radiance => (pdf_l, pdf_e),
             TransportMode::Importance => (pdf_e, pdf_l),
         };
-        Some(BsdfSample { w, f: scale * self.normal_ratio(w_l), pdf_fwd_psa, pdf_rev_psa, delta: true })
+        Some(BsdfSample { w, f: ray.scale * self.normal_ratio(w_l), pdf_fwd_psa, pdf_rev_psa, delta: true })
     }
 }
 
-/// Reflectance of a smooth dielectric boundary for unpolarised light; `eta` = index on the incoming side over the other's.
-#[inline]
-pub fn fresnel_dielectric(cos_i: f32, eta: f32) -> f32 {
-    let sin2_t = eta * eta * (1.0 - cos_i * cos_i).max(0.0);
-    if sin2_t >= 1.0 {
-        return 1.0;
-    }
-    let cos_t = (1.0 - sin2_t).sqrt();
-    let parallel = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-    let perpendicular = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-    0.5 * (parallel * parallel + perpendicular * perpendicular)
+/// A drawn direction of a Dirac component.
+struct DiracRay {
+    /// The direction.
+    w: Vec3,
+    /// R or T.
+    scale: Vec3,
+    /// P, with which it was chosen.
+    probability: f32,
+    /// Refraction: index on the incoming side over the index on the other; else 1.
+    eta: f32,
 }

@@ -64,6 +64,17 @@ pub struct Hit {
     pub b2: f32,
 }
 
+/// What a traversal does after a hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Visit {
+    /// As if there had been none.
+    Ignore,
+    /// Only nearer ones count from now on.
+    Nearer,
+    /// It ends.
+    Stop,
+}
+
 /// The hierarchy; node 0 is the root. Empty for a scene without triangles.
 #[derive(Debug, Default)]
 pub struct Bvh {
@@ -106,44 +117,58 @@ impl Bvh {
     /// The nearest hit with distance > 0.
     #[inline(always)]
     pub fn closest_hit(&self, triangles: &[Triangle], ray: &Ray) -> Option<Hit> {
-        self.nearest(triangles, &PreparedRay::new(ray.origin, ray.direction), f32::MAX)
+        self.nearest(triangles, &PreparedRay::new(ray.origin, ray.direction), f32::MAX, |_| true)
+    }
+
+    /// The nearest hit with distance > 0 that is accepted.
+    #[inline(always)]
+    pub fn closest_hit_where(&self, triangles: &[Triangle], ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
+        self.nearest(triangles, &PreparedRay::new(ray.origin, ray.direction), f32::MAX, accept)
     }
 
     /// Does anything lie strictly between the ends?
     #[inline(always)]
     pub fn any_hit(&self, triangles: &[Triangle], segment: &Segment) -> bool {
-        self.traverse::<true>(triangles, &PreparedRay::new(segment.from, segment.to - segment.from), 1.0, |_| true)
+        self.each_hit(triangles, segment, |_| Visit::Stop)
     }
 
-    /// Does a ray hit anything?
+    /// Visits everything strictly between the ends, in no order, until told to stop; was it?
+    #[inline(always)]
+    pub fn each_hit(&self, triangles: &[Triangle], segment: &Segment, visit: impl FnMut(&Hit) -> Visit) -> bool {
+        self.traverse::<true>(triangles, &PreparedRay::new(segment.from, segment.to - segment.from), 1.0, visit)
+    }
+
+    /// Visits everything along a ray, in no order, until told to stop; was it?
     #[inline]
-    pub fn any_hit_to_infinity(&self, triangles: &[Triangle], ray: &Ray) -> bool {
-        self.traverse::<true>(triangles, &PreparedRay::new(ray.origin, ray.direction), f32::MAX, |_| true)
+    pub fn any_hit_to_infinity(&self, triangles: &[Triangle], ray: &Ray, visit: impl FnMut(&Hit) -> Visit) -> bool {
+        self.traverse::<true>(triangles, &PreparedRay::new(ray.origin, ray.direction), f32::MAX, visit)
     }
 
-    /// The hit nearest to the segment's start, `distance` as a fraction of the segment.
-    pub fn closest_hit_on_segment(&self, triangles: &[Triangle], segment: &Segment) -> Option<Hit> {
-        self.nearest(triangles, &PreparedRay::new(segment.from, segment.to - segment.from), 1.0)
+    /// The accepted hit nearest to the segment's start, `distance` as a fraction of the segment.
+    pub fn closest_hit_on_segment(&self, triangles: &[Triangle], segment: &Segment, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
+        self.nearest(triangles, &PreparedRay::new(segment.from, segment.to - segment.from), 1.0, accept)
     }
 
     #[inline(always)]
-    fn nearest(&self, triangles: &[Triangle], ray: &PreparedRay, t_max: f32) -> Option<Hit> {
+    fn nearest(&self, triangles: &[Triangle], ray: &PreparedRay, t_max: f32, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
         let mut best = None;
         self.traverse::<false>(triangles, ray, t_max, |hit| {
-            best = Some(hit);
-            false
+            if !accept(hit) {
+                return Visit::Ignore;
+            }
+            best = Some(*hit);
+            Visit::Nearer
         });
         best
     }
 
-    /// Visits hits nearer and nearer, from `t_max` down, until `stop` says so (then true) or there is none left. With `ANY`
-    /// the order does not matter, so none is kept.
+    /// Visits hits until told to stop (then true) or there is none left. With `ANY` the order does not matter, so none is kept.
     #[inline(always)]
-    fn traverse<const ANY: bool>(&self, triangles: &[Triangle], ray: &PreparedRay, t_max: f32, stop: impl FnMut(Hit) -> bool) -> bool {
+    fn traverse<const ANY: bool>(&self, triangles: &[Triangle], ray: &PreparedRay, t_max: f32, visit: impl FnMut(&Hit) -> Visit) -> bool {
         // A small scene's stack is so small that clearing it costs nothing.
         match self.depth {
-            0..=16 => self.traverse_with::<16, ANY>(triangles, ray, t_max, stop),
-            _ => self.traverse_with::<STACK_SIZE, ANY>(triangles, ray, t_max, stop),
+            0..=16 => self.traverse_with::<16, ANY>(triangles, ray, t_max, visit),
+            _ => self.traverse_with::<STACK_SIZE, ANY>(triangles, ray, t_max, visit),
         }
     }
 
@@ -153,7 +178,7 @@ impl Bvh {
         triangles: &[Triangle],
         ray: &PreparedRay,
         mut t_max: f32,
-        mut stop: impl FnMut(Hit) -> bool,
+        mut visit: impl FnMut(&Hit) -> Visit,
     ) -> bool {
         let Some(mut node) = self.nodes.first() else { return false };
         let mut stack = [(0u32, 0.0f32); N];
@@ -163,10 +188,11 @@ impl Bvh {
                 let first = node.first as usize;
                 for (triangle, index) in triangles[first..first + node.count as usize].iter().zip(node.first..) {
                     if let Some(hit) = ray.hit(triangle, index, t_max) {
-                        if stop(hit) {
-                            return true;
+                        match visit(&hit) {
+                            Visit::Ignore => {}
+                            Visit::Nearer => t_max = hit.distance,
+                            Visit::Stop => return true,
                         }
-                        t_max = hit.distance;
                     }
                 }
             } else {

@@ -67,7 +67,7 @@ fn read(name: &str, (file, folder): (&Path, Option<&Path>), bytes: &[u8], overri
     let list = std::mem::take(&mut materials.list);
     notes.extend(materials.notes());
     notes.extend(ignored_parts(&document));
-    let parts = Parts { name: name.to_owned(), triangles, materials: list, cameras, lights, environment, notes };
+    let parts = Parts { name: name.to_owned(), triangles, materials: list, cameras, lights, environment, notes, ..Parts::default() };
     let parts = parts.with_default_camera().with_default_environment(overrides.environment_rotation.unwrap_or(0.0));
     if overrides.environment_rotation.is_some() && parts.environment.is_none() {
         return Err(SceneError::file(file, "it has no environment that could be turned; give it one as well"));

@@ -2,7 +2,7 @@
 //!
 //! | kind | `radiance` | x₀ and its density | L_e⁽⁰⁾ | L_e⁽¹⁾(x₀→ω) | P_σ⊥ of the first direction |
 //! |---|---|---|---|---|---|
-//! | area | L, W m⁻² sr⁻¹ | a point, P/A in m⁻² | πL·sides, W m⁻² | 1/(π·sides), sr⁻¹ | L_e⁽¹⁾ |
+//! | area | L, W m⁻² sr⁻¹ (times texture and a) | a point, P/A in m⁻² | πL·sides, W m⁻² | 1/(π·sides), sr⁻¹ | L_e⁽¹⁾ |
 //! | point | I, W sr⁻¹ | discrete, P | 4πI, W | 1/(4π), sr⁻¹ | L_e⁽¹⁾ |
 //! | spot | I, W sr⁻¹ | discrete, P | I·Ω, W, Ω = ∫ falloff dω | falloff/Ω, sr⁻¹ | L_e⁽¹⁾ |
 //! | directional | E, W m⁻² | a direction, discrete, P | E | 1 | 1/(πR²), m⁻² |
@@ -14,7 +14,7 @@
 
 use super::alias::AliasTable;
 use super::environment::Environment;
-use super::{NONE, Scene, SurfacePoint, Triangle};
+use super::{NONE, Scene, Shape, SurfacePoint};
 use crate::math::{Frame, INV_PI, PI, Vec2, Vec3, cube_root, direction_at, sample_cosine_hemisphere, sample_sphere, versine};
 use crate::shared_struct;
 
@@ -57,7 +57,7 @@ pub const ENVIRONMENT: u32 = 4;
 
 impl Light {
     /// A light of no extent; the other fields are the kind's.
-    fn new(kind: u32, radiance: Vec3) -> Self {
+    pub(super) fn new(kind: u32, radiance: Vec3) -> Self {
         Self {
             radiance,
             kind,
@@ -216,39 +216,18 @@ pub struct Lights {
 }
 
 impl Lights {
-    /// Collects the emissive triangles among `triangles`, writes each one's index into its `light` field, and adds the other
-    /// lights. `radius` is that of the sphere around the scene.
-    pub fn collect(
-        triangles: &mut [Triangle],
-        materials: &[super::Material],
-        others: Vec<(String, Light)>,
-        environment: Option<Environment>,
-        radius: f32,
-    ) -> Self {
-        let mut list = Vec::new();
-        for (index, triangle) in triangles.iter_mut().enumerate() {
-            let material = &materials[triangle.material as usize];
-            let area = 0.5 * (triangle.p1 - triangle.p0).cross(triangle.p2 - triangle.p0).length();
-            triangle.light = NONE;
-            if material.emits() && area > 0.0 {
-                triangle.light = list.len() as u32;
-                let sides = if material.two_sided == 1 { 2.0 } else { 1.0 };
-                list.push(Light { triangle: index as u32, area, sides, ..Light::new(AREA, material.emission) });
-            }
-        }
-        let (names, others): (Vec<_>, Vec<_>) = others.into_iter().filter(|(_, light)| light.radiance.max_element() > 0.0).unzip();
-        list.extend(others);
-        let environment = environment.filter(Environment::emits);
-        list.extend(environment.iter().map(|_| Light::new(ENVIRONMENT, Vec3::ONE)));
+    /// The lights of a list (area lights first), with their common pmf. `area_means[i]` is what multiplies the radiance of area
+    /// light i in the mean; `radius` is that of the sphere around the scene.
+    pub fn new(list: Vec<Light>, area_means: &[Vec3], names: Vec<String>, environment: Option<Environment>, radius: f32) -> Self {
         let disk = f64::from(PI) * f64::from(radius) * f64::from(radius);
-        let power = |light: &Light| match (light.kind, &environment) {
+        let power = |(i, light): (usize, &Light)| match (light.kind, &environment) {
             (ENVIRONMENT, Some(map)) => map.integral.as_dvec3() * disk,
             (DIRECTIONAL, _) => light.radiance.as_dvec3() * disk,
-            (AREA, _) => light.l_e_0().as_dvec3() * f64::from(light.area),
+            (AREA, _) => (light.l_e_0() * area_means[i]).as_dvec3() * f64::from(light.area),
             _ => light.l_e_0().as_dvec3(),
         };
-        let powers: Vec<f64> = list.iter().map(|light| power(light).element_sum()).collect();
-        let total = list.iter().map(power).sum::<crate::math::DVec3>().as_vec3();
+        let powers: Vec<f64> = list.iter().enumerate().map(|x| power(x).element_sum()).collect();
+        let total = list.iter().enumerate().map(power).sum::<crate::math::DVec3>().as_vec3();
         // A floor keeps every emitter samplable, however weak beside the others.
         let floor = powers.iter().sum::<f64>() * 1e-6 / list.len().max(1) as f64;
         let weights: Vec<f64> = powers.iter().map(|p| p.max(floor)).collect();
@@ -281,8 +260,8 @@ impl Lights {
 
     /// A point on an area light with density [`Light::pdf_area`] (its choice included) per area.
     #[inline]
-    pub fn point_on(&self, scene: &Scene, light: &Light, u: Vec2) -> SurfacePoint {
-        scene.point_on_triangle(light.triangle, crate::math::sample_triangle(u))
+    pub fn point_on<F: Shape>(&self, scene: &Scene, light: &Light, u: Vec2) -> SurfacePoint {
+        scene.surface_point_as::<F>(light.triangle, crate::math::sample_triangle(u))
     }
 
     /// Density of x₀, an area light's point (m⁻²) or the environment's direction (sr⁻¹, `w` travels from it).

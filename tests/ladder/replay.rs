@@ -41,7 +41,7 @@ type Spoil = fn(&mut FullPath, &[Vertex], usize);
 fn replay_scene(scene: &Scene, samples: u32, roulette: bool, spoil: Spoil) -> Findings {
     let view = View::new(scene, &scene.cameras[0], [64, 48]);
     let settings = Settings { max_edges: K, roulette, ..Settings::default() };
-    let context = Context { scene, view: &view, settings: &settings };
+    let context = Context::new(scene, &view, &settings);
     let lens = view.has_lens();
     let mut sample = Sample::default();
     let mut found = Findings::default();

@@ -7,7 +7,7 @@ use bdpt_explorer::bdpt::{Settings, Subpath};
 use bdpt_explorer::math::{INV_PI, Vec2, Vec3, sample_cosine_hemisphere, sample_disk, sample_triangle};
 use bdpt_explorer::rng::{SampleId, pair};
 use bdpt_explorer::scene::bsdf::fresnel_dielectric;
-use bdpt_explorer::scene::{Bsdf, Material, TransportMode, View};
+use bdpt_explorer::scene::{Bsdf, General, Look, Material, TransportMode, View};
 
 const LEVEL: f64 = 1e-3 / 32.0;
 const N: u32 = 400_000;
@@ -117,7 +117,7 @@ fn the_camera_covers_its_film_with_the_stated_density() {
 fn eye_subpaths_start_uniformly_in_their_pixel() {
     let scene = scenes::patches();
     let (view, settings) = (View::new(&scene, &scene.cameras[0], [600, 400]), Settings::default());
-    let context = Context { scene: &scene, view: &view, settings: &settings };
+    let context = Context::new(&scene, &view, &settings);
     let mut subpath = Subpath::new();
     let mut in_pixel = |i: u32| {
         let id = SampleId { x: 599 - i % 3, y: i % 400, sample: i / 1200, seed: 4 };
@@ -146,7 +146,7 @@ fn lights_are_chosen_and_emit_with_the_stated_densities() {
     for i in 0..N {
         let u = numbers(i, 1);
         let index = lights.choose(pair(u, 0)).unwrap();
-        let point = lights.point_on(&scene, &lights.list[index as usize], pair(u, 2));
+        let point = lights.point_on::<General>(&scene, &lights.list[index as usize], pair(u, 2));
         observed[index as usize] += 1;
         let p = scene.in_file(point.position);
         if p[0] < 2.0 {
@@ -177,7 +177,8 @@ fn lambert_scatters_as_it_says_in_both_modes() {
     let n_g = Vec3::new(0.2, 0.1, 1.0).normalize();
     let n_s = Vec3::new(-0.3, 0.4, 0.9).normalize();
     let material = Material::lambert(Vec3::splat(0.6));
-    let bsdf = Bsdf::new(n_g, n_s, &material);
+    let look = Look::of(&material);
+    let bsdf = Bsdf::new(n_g, n_s, &material, &look);
     let w_in = Vec3::new(0.5, -0.2, 0.6).normalize();
     for mode in [TransportMode::Radiance, TransportMode::Importance] {
         for w_in in [w_in, -w_in] {
@@ -204,7 +205,8 @@ fn smooth_dielectrics_choose_reflection_as_often_as_fresnel_says() {
         let material = Material::dielectric(Vec3::ONE, 1.5, false);
         let side = if eta < 1.0 { 1.0 } else { -1.0 };
         let w_in = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos * side);
-        let bsdf = Bsdf::new(Vec3::Z, Vec3::Z, &material);
+        let look = Look::of(&material);
+        let bsdf = Bsdf::new(Vec3::Z, Vec3::Z, &material, &look);
         let reflected = (0..N)
             .filter(|&i| bsdf.sample(w_in, TransportMode::Radiance, numbers(i, 9)[0], Vec2::ZERO).unwrap().w.z * side > 0.0)
             .count() as u64;
@@ -229,7 +231,8 @@ fn dirac_components_are_one_function_seen_from_both_ends() {
     let mut checked = 0;
     for material in &materials {
         for (i, n_s) in (0..4000).map(|i| (i, if i % 2 == 0 { Vec3::Z } else { Vec3::new(0.15, -0.1, 1.0).normalize() })) {
-            let bsdf = Bsdf::new(Vec3::Z, n_s, material);
+            let look = Look::of(material);
+            let bsdf = Bsdf::new(Vec3::Z, n_s, material, &look);
             let u = numbers(i, 10);
             let mut w_e = sample_cosine_hemisphere(pair(u, 0));
             w_e.z *= if u[2] < 0.5 { 1.0 } else { -1.0 };
@@ -274,7 +277,8 @@ fn dirac_components_are_one_function_seen_from_both_ends() {
 #[test]
 fn lambert_is_reciprocal_and_reflects_its_albedo() {
     let material = Material::lambert(Vec3::splat(0.8));
-    let bsdf = Bsdf::new(Vec3::Z, Vec3::Z, &material);
+    let look = Look::of(&material);
+    let bsdf = Bsdf::new(Vec3::Z, Vec3::Z, &material, &look);
     for i in 0..64 {
         let w_i = sample_cosine_hemisphere(pair(numbers(i, 11), 0));
         let w_o = sample_cosine_hemisphere(pair(numbers(i, 12), 0));

@@ -2,7 +2,7 @@
 
 use bdpt_explorer::math::{DVec3, Vec3};
 use bdpt_explorer::scene::assemble::{PartCamera, PartLight, PartTriangle, Parts};
-use bdpt_explorer::scene::{Environment, Material, Scene};
+use bdpt_explorer::scene::{Environment, Material, NONE, Scene};
 use std::sync::Arc;
 
 /// A scene under construction.
@@ -27,7 +27,7 @@ impl Room {
     pub fn quad(&mut self, p: [f64; 3], u: [f64; 3], v: [f64; 3], material: u32) {
         let (p, u, v) = (DVec3::from(p), DVec3::from(u), DVec3::from(v));
         for corners in [[p, p + u, p + u + v], [p, p + u + v, p + v]] {
-            self.0.triangles.push(PartTriangle { corners, normals: None, material });
+            self.0.triangles.push(PartTriangle { corners, normals: None, material, attributes: NONE });
         }
     }
 
@@ -61,7 +61,7 @@ impl Room {
                 for normals in [[a, b, c], [a, c, d]] {
                     let corners = normals.map(|n| centre + n * radius);
                     let normals = smooth.then(|| normals.map(DVec3::as_vec3));
-                    self.0.triangles.push(PartTriangle { corners, normals, material });
+                    self.0.triangles.push(PartTriangle { corners, normals, material, attributes: NONE });
                 }
             }
         }

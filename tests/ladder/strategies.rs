@@ -29,7 +29,7 @@ type Table = BTreeMap<(u32, usize, usize), (Moments, Moments, Moments)>;
 
 fn compare(scene: &Scene, samples: u32, settings: &Settings, spoil: impl Fn(Strategy) -> f64) -> Table {
     let view = View::new(scene, &scene.cameras[0], [32, 32]);
-    let context = Context { scene, view: &view, settings };
+    let context = Context::new(scene, &view, settings);
     let lens = u32::from(view.has_lens());
     let mut sample = Sample::default();
     let mut table = Table::new();

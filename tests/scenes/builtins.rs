@@ -29,7 +29,7 @@ fn cornell_is_the_classic_box() {
     let scene = builtin::open("cornell").unwrap();
     assert_eq!(scene.triangles.len(), 36);
     assert!((scene.origin * 2.0 - DVec3::new(0.5528, 0.5488, 0.5592)).length() < 1e-6, "{}", scene.origin);
-    assert!(scene.triangles.iter().all(|t| t.normals == NONE));
+    assert!(scene.triangles.iter().all(|t| t.attributes == NONE));
     // Φ = A · π · L, per channel; the lamp shines down.
     let power: Vec3 = scene.lights.list.iter().map(|l| l.l_e_0() * l.area).sum();
     let expected = Vec3::new(1.0, 0.706, 0.235) * (22.0 * std::f32::consts::PI * 0.130 * 0.105);
@@ -73,7 +73,7 @@ fn no_visible_point_of_indirect_sees_the_lamp() {
         for j in 0..32 {
             let u = |k: i32| ((j * k) as f32 * 0.618_034).fract();
             let light = &scene.lights.list[scene.lights.choose(Vec2::new(u(1), u(5))).unwrap() as usize];
-            let point = scene.lights.point_on(&scene, light, Vec2::new(u(3), u(7)));
+            let point = scene.lights.point_on::<General>(&scene, light, Vec2::new(u(3), u(7)));
             let w = (point.position - hit.position).normalize();
             let from = bdpt_explorer::math::offset_ray_origin(hit.position, hit.error, hit.n_g, w);
             let to = bdpt_explorer::math::offset_ray_origin(point.position, point.error, point.n_g, -w);

@@ -18,7 +18,7 @@ mod rendering;
 mod skip;
 
 use bdpt_explorer::math::{DVec3, Vec2, Vec3};
-use bdpt_explorer::scene::{DIELECTRIC, LAMBERT, MIRROR, NONE, Overrides, Ray, Scene, THIN_DIELECTRIC, View, builtin, gltf};
+use bdpt_explorer::scene::{DIELECTRIC, General, LAMBERT, MIRROR, NONE, Overrides, Ray, Scene, THIN_DIELECTRIC, View, builtin, gltf};
 use glb::{Glb, Shape, emitter, glass, lambert, mirror};
 use serde_json::{Value, json};
 use std::path::Path;

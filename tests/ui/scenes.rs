@@ -2,7 +2,7 @@
 
 use bdpt_explorer::math::{DVec3, Vec3};
 use bdpt_explorer::scene::assemble::{PartCamera, PartLight, PartTriangle, Parts};
-use bdpt_explorer::scene::{Environment, Material, Scene};
+use bdpt_explorer::scene::{Environment, Material, NONE, Scene};
 use std::sync::Arc;
 
 /// A floor and a back wall with a box of the given material on it, seen by a camera.
@@ -13,7 +13,7 @@ fn stage(name: &str, stuff: Material) -> Parts {
     let mut quad = |p: [f64; 3], u: [f64; 3], v: [f64; 3], material: u32| {
         let (p, u, v) = (DVec3::from(p), DVec3::from(u), DVec3::from(v));
         for corners in [[p, p + u, p + u + v], [p, p + u + v, p + v]] {
-            parts.triangles.push(PartTriangle { corners, normals: None, material });
+            parts.triangles.push(PartTriangle { corners, normals: None, material, attributes: NONE });
         }
     };
     quad([-1.5, 0.0, 1.5], [3.0, 0.0, 0.0], [0.0, 0.0, -3.0], 0);

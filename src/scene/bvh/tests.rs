@@ -17,7 +17,7 @@ fn in_cube(stream: u32, i: u32) -> Vec3 {
 }
 
 fn triangle(p0: Vec3, p1: Vec3, p2: Vec3) -> Triangle {
-    Triangle { p0, material: 0, p1, light: NONE, p2, normals: NONE }
+    Triangle { p0, material: 0, p1, light: NONE, p2, attributes: NONE }
 }
 
 /// The nearest hit by trying every triangle.
@@ -88,7 +88,7 @@ fn check_hits(triangles: &[Triangle], stream: u32, count: u32, scale: f32) -> u3
         let gap = found.zip(expected).map_or(0.0, |(f, e)| (f.distance - e.distance).abs());
         assert!(gap <= 2e-5 * scale, "{ray:?} at scale {scale}: {found:?} {expected:?}");
         let segment = Segment { from: ray.origin, to: ray.origin + ray.direction * (scale * random(stream + 3, hits)[0]) };
-        assert_eq!(bvh.any_hit(&own, &segment), bvh.closest_hit_on_segment(&own, &segment).is_some(), "{segment:?}");
+        assert_eq!(bvh.any_hit(&own, &segment), bvh.closest_hit_on_segment(&own, &segment, |_| true).is_some(), "{segment:?}");
         hits += u32::from(found.is_some());
     }
     hits

@@ -1,7 +1,7 @@
 //! From mesh primitives to triangles in the scene's coordinates.
 
-use super::super::SceneError;
 use super::super::assemble::PartTriangle;
+use super::super::{NONE, SceneError};
 use super::container::{Document, label};
 use super::material::Materials;
 use super::nodes::Placed;
@@ -103,7 +103,7 @@ impl Shape {
         list.extend(self.triangles.iter().map(|&[a, b, c]| {
             // A mirror turns counter-clockwise into clockwise: swapping two corners keeps the front the front.
             let at = if mirrored { [a, c, b] } else { [a, b, c] }.map(|i| i as usize);
-            PartTriangle { corners: at.map(|i| world[i]), normals: normals.as_ref().map(|n| at.map(|i| n[i])), material }
+            PartTriangle { corners: at.map(|i| world[i]), normals: normals.as_ref().map(|n| at.map(|i| n[i])), material, attributes: NONE }
         }));
     }
 

@@ -1,0 +1,149 @@
+//! What a triangle may have beyond its corners: shading normals, tangents, texture coordinates, colours.
+//!
+//! Each kind is a flat array; a triangle names its entries through one record, and a flat grey triangle has none at all.
+
+use super::NONE;
+use crate::math::{Vec2, Vec3};
+use crate::shared_struct;
+use glam::Vec4;
+
+shared_struct! {
+    /// Where a triangle's entries are in the flat arrays; [`NONE`] where it has none.
+    pub struct Attributes {
+        /// Index into [`Arrays::normals`].
+        pub normals: u32,
+        /// Index into [`Arrays::tangents`].
+        pub tangents: u32,
+        /// Index of texture coordinate set 0 in [`Arrays::uvs`].
+        pub uvs_0: u32,
+        /// Index of texture coordinate set 1 in [`Arrays::uvs`].
+        pub uvs_1: u32,
+        /// Index into [`Arrays::colors`].
+        pub colors: u32,
+        /// Padding.
+        pub _pad0: u32,
+        /// Padding.
+        pub _pad1: u32,
+        /// Padding.
+        pub _pad2: u32,
+    }
+}
+
+impl Attributes {
+    /// Nothing beyond the corners.
+    pub const PLAIN: Self = Self { normals: NONE, tangents: NONE, uvs_0: NONE, uvs_1: NONE, colors: NONE, _pad0: 0, _pad1: 0, _pad2: 0 };
+}
+
+shared_struct! {
+    /// The shading normals at a triangle's corners: unit vectors on the geometric normal's side.
+    pub struct Normals {
+        /// At p0.
+        pub n0: Vec3,
+        /// Padding.
+        pub _pad0: u32,
+        /// At p1.
+        pub n1: Vec3,
+        /// Padding.
+        pub _pad1: u32,
+        /// At p2.
+        pub n2: Vec3,
+        /// Padding.
+        pub _pad2: u32,
+    }
+}
+
+shared_struct! {
+    /// The tangents at a triangle's corners: the direction in which a normal map's x points, of any length.
+    pub struct Tangents {
+        /// At p0.
+        pub t0: Vec3,
+        /// ±1: the bitangent (the map's y) is `sign` · n × t.
+        pub sign: f32,
+        /// At p1.
+        pub t1: Vec3,
+        /// Padding.
+        pub _pad0: u32,
+        /// At p2.
+        pub t2: Vec3,
+        /// Padding.
+        pub _pad1: u32,
+    }
+}
+
+shared_struct! {
+    /// Texture coordinates at a triangle's corners; v points down.
+    pub struct Uvs {
+        /// At p0.
+        pub uv0: Vec2,
+        /// At p1.
+        pub uv1: Vec2,
+        /// At p2.
+        pub uv2: Vec2,
+    }
+}
+
+shared_struct! {
+    /// Linear colours at a triangle's corners; they multiply the base colour, alpha included.
+    pub struct Colors {
+        /// At p0.
+        pub c0: Vec4,
+        /// At p1.
+        pub c1: Vec4,
+        /// At p2.
+        pub c2: Vec4,
+    }
+}
+
+/// All triangles' attributes.
+#[derive(Debug, Default)]
+pub struct Arrays {
+    /// One for each triangle that has any.
+    pub list: Vec<Attributes>,
+    /// Shading normals.
+    pub normals: Vec<Normals>,
+    /// Tangents.
+    pub tangents: Vec<Tangents>,
+    /// Texture coordinates of both sets.
+    pub uvs: Vec<Uvs>,
+    /// Colours.
+    pub colors: Vec<Colors>,
+}
+
+/// The value at barycentric coordinates (b1, b2) of what is b0 a + b1 b + b2 c.
+macro_rules! interpolate {
+    ($b:expr, $a:expr, $b1:expr, $c:expr) => {
+        $a * (1.0 - $b.x - $b.y) + $b1 * $b.x + $c * $b.y
+    };
+}
+
+impl Normals {
+    /// The unit normal at barycentric coordinates (b1, b2).
+    #[inline]
+    pub fn at(&self, b: Vec2) -> Vec3 {
+        interpolate!(b, self.n0, self.n1, self.n2).normalize()
+    }
+}
+
+impl Tangents {
+    /// The tangent, of any length, and the bitangent's sign.
+    #[inline]
+    pub fn at(&self, b: Vec2) -> (Vec3, f32) {
+        (interpolate!(b, self.t0, self.t1, self.t2), self.sign)
+    }
+}
+
+impl Uvs {
+    /// The texture coordinates.
+    #[inline]
+    pub fn at(&self, b: Vec2) -> Vec2 {
+        interpolate!(b, self.uv0, self.uv1, self.uv2)
+    }
+}
+
+impl Colors {
+    /// The colour.
+    #[inline]
+    pub fn at(&self, b: Vec2) -> Vec4 {
+        interpolate!(b, self.c0, self.c1, self.c2)
+    }
+}

@@ -1,0 +1,70 @@
+//! Finding a scene's lights: which triangles emit, and how much each does in the mean.
+
+use super::attributes::Attributes;
+use super::light::{AREA, ENVIRONMENT, Light};
+use super::material::UNLIT;
+use super::{Environment, General, Lights, Material, NONE, Scene, Triangle};
+use crate::math::{Vec2, Vec3, sample_triangle};
+
+/// Points at which the mean of an emissive texture over a triangle is taken: a floor on what is not met keeps it samplable.
+const POINTS: u32 = 64;
+
+impl Scene {
+    /// Collects the emissive triangles, writes each one's index into its `light` field, and adds the other lights.
+    pub(super) fn collect_lights(&mut self, others: Vec<(String, Light)>, environment: Option<Environment>) {
+        let (mut list, mut means) = (Vec::new(), Vec::new());
+        for index in 0..self.triangles.len() as u32 {
+            let triangle = &self.triangles[index as usize];
+            let material = &self.materials[triangle.material as usize];
+            let area = 0.5 * (triangle.p1 - triangle.p0).cross(triangle.p2 - triangle.p0).length();
+            let mean = if material.emits() && area > 0.0 { self.mean_emission(index, triangle, material) } else { None };
+            let light = mean.map(|mean| {
+                let sides = if material.two_sided == 1 { 2.0 } else { 1.0 };
+                list.push(Light { triangle: index, area, sides, ..Light::new(AREA, material.emission) });
+                means.push(mean);
+                list.len() as u32 - 1
+            });
+            self.triangles[index as usize].light = light.unwrap_or(NONE);
+        }
+        let (names, others): (Vec<_>, Vec<_>) = others.into_iter().filter(|(_, light)| light.radiance.max_element() > 0.0).unzip();
+        list.extend(others);
+        let environment = environment.filter(Environment::emits);
+        list.extend(environment.iter().map(|_| Light::new(ENVIRONMENT, Vec3::ONE)));
+        self.lights = Lights::new(list, &means, names, environment, self.sphere.radius);
+    }
+
+    /// The mean over a triangle of what multiplies its material's emission; `None` if that is nothing anywhere.
+    fn mean_emission(&self, index: u32, triangle: &Triangle, material: &Material) -> Option<Vec3> {
+        if triangle.attributes == NONE || (material.emissive_texture == NONE && material.flags == 0) {
+            return Some(Vec3::splat(self.emission_opacity(triangle, material)));
+        }
+        let attributes = &self.attributes.list[triangle.attributes as usize];
+        let largest = self.largest_emission(material, attributes);
+        if (largest * material.emission).max_element() <= 0.0 {
+            return None;
+        }
+        let points = (0..POINTS).map(|i| {
+            // A Kronecker sequence: it fills the triangle evenly.
+            let u = Vec2::new((0.5 + i as f32 * 0.754_877_7).fract(), (0.5 + i as f32 * 0.569_840_3).fract());
+            let b = sample_triangle(u);
+            self.emission_factor::<General>(index, triangle.material, b) * self.surface_point_as::<General>(index, b).look.opacity
+        });
+        Some(points.sum::<Vec3>() / POINTS as f32)
+    }
+
+    /// A bound on what the textures make of the emission on a triangle.
+    fn largest_emission(&self, material: &Material, attributes: &Attributes) -> Vec3 {
+        if material.emissive_texture == NONE || material.has(UNLIT) {
+            return Vec3::ONE;
+        }
+        let second = self.textures.list[material.emissive_texture as usize].flags & super::texture::SET_1 != 0;
+        let uvs = if second { attributes.uvs_1 } else { attributes.uvs_0 };
+        let corners = self.attributes.uvs.get(uvs as usize).map_or([Vec2::ZERO; 3], |uvs| [uvs.uv0, uvs.uv1, uvs.uv2]);
+        self.textures.largest(material.emissive_texture, corners).truncate()
+    }
+
+    /// a of a triangle on which nothing varies.
+    fn emission_opacity(&self, triangle: &Triangle, material: &Material) -> f32 {
+        if material.has(super::material::TRANSPARENT) { self.opacity_at(material, triangle.attributes, Vec2::ZERO) } else { 1.0 }
+    }
+}
