@@ -136,6 +136,11 @@ impl Sample {
         }
     }
 
+    /// V of the edge connected last.
+    pub fn edge_visibility(&self) -> f32 {
+        self.edge.visibility
+    }
+
     fn crossing(&self, s: u32) -> Option<&Crossing> {
         self.crossings.iter().find(|crossing| crossing.s == s)
     }
@@ -207,13 +212,13 @@ impl Sample {
         }
 
         // Its visibility, and the path's weight.
-        self.edge = Edge { w, geometry };
+        self.edge = Edge { w, geometry, visibility: 1.0 };
         self.rays_shadow += 1;
         let v = visibility(context, a, b, w);
         if v <= 0.0 {
             return Err(Reason::Blocked);
         }
-        self.edge.geometry *= v;
+        self.edge = Edge { w, geometry: geometry * v, visibility: v };
         let connection_term = f_a * f_b * self.edge.geometry;
         self.path.join(context, y, z, &self.edge);
         let pixel = if t == 1 { context.view.pixel(raster).ok_or(Reason::OutsideTheFilm)? } else { [self.id.x, self.id.y] };

@@ -21,6 +21,8 @@ pub struct Edge {
     pub w: Vec3,
     /// Geometry term, V included, m⁻².
     pub geometry: f32,
+    /// V alone, in [0, 1].
+    pub visibility: f32,
 }
 
 /// A joined path, ready for its weights.

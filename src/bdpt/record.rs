@@ -24,6 +24,19 @@ pub enum Measure {
     Discrete,
 }
 
+/// A material at a point as it is reported, its textures looked up.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LookRecord {
+    /// Base colour, linear.
+    pub color: [f32; 3],
+    /// Roughness; α of GGX is its square.
+    pub roughness: f32,
+    /// Share of the metal.
+    pub metallic: f32,
+    /// a(x), the probability that the surface is there.
+    pub opacity: f32,
+}
+
 /// A vertex as it is reported.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct VertexRecord {
@@ -43,6 +56,8 @@ pub struct VertexRecord {
     pub material: Option<String>,
     /// The material's model.
     pub model: Option<&'static str>,
+    /// What the material looks like here; `None` where there is no surface.
+    pub look: Option<LookRecord>,
     /// Does it lie on a light?
     pub emitter: bool,
     /// α of the subpath up to here.
@@ -150,6 +165,8 @@ pub struct StrategyRecord {
     pub vertices: Vec<PathVertexRecord>,
     /// Where the connection edge is blocked first, seen from the light side; file coordinates.
     pub blocker: Option<[f64; 3]>,
+    /// V of the connection edge, in [0, 1]; `None` where nothing was connected.
+    pub visibility: Option<f32>,
     /// log₁₀ p_{s,t}.
     pub p: Option<f64>,
     /// c_{s,t}.
@@ -176,7 +193,7 @@ fn vertices_only<S: Serializer>(subpath: &SubpathRecord, serializer: S) -> Resul
 }
 
 /// Version of the estimator and its random numbers: records of the same version, scene and settings are the same.
-pub const RECORD_VERSION: u32 = 2;
+pub const RECORD_VERSION: u32 = 3;
 
 /// Everything about one sample of one pixel, and everything it depends on.
 #[derive(Clone, Debug, PartialEq, Serialize)]

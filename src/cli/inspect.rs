@@ -83,7 +83,7 @@ fn subpath(letter: &str, subpath: &SubpathRecord) -> String {
 
 fn vertex_row(name: String, vertex: &VertexRecord) -> Vec<String> {
     let [x, y, z] = vertex.position;
-    let model = vertex.model.map(|model| format!(" ({model})")).unwrap_or_default();
+    let model = vertex.model.map(|model| format!(" ({model}{})", there(vertex))).unwrap_or_default();
     let material = vertex.material.as_ref().map_or("–".to_owned(), |name| format!("{name}{model}"));
     let on = match (vertex.light, &vertex.light_name) {
         (Some(light), Some(name)) => format!("{light} '{name}'"),
@@ -114,6 +114,11 @@ fn vertex_row(name: String, vertex: &VertexRecord) -> Vec<String> {
         unit.to_owned(),
         format!("{:.2}", vertex.survival),
     ]
+}
+
+/// How much of a surface is there, where that is not all.
+fn there(vertex: &VertexRecord) -> String {
+    vertex.look.filter(|look| look.opacity < 1.0).map(|look| format!(", a = {:.2}", look.opacity)).unwrap_or_default()
 }
 
 fn strategies(record: &PathRecord) -> String {

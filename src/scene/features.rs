@@ -129,6 +129,31 @@ impl SceneFeatures {
         features
     }
 
+    /// Everything at once.
+    pub const fn all() -> Self {
+        Self {
+            mirror: true,
+            glass: true,
+            thin_glass: true,
+            shading_normals: true,
+            two_sided_emitters: true,
+            rough_metal: true,
+            coat: true,
+            connectable: true,
+            textures: true,
+            vertex_colors: true,
+            normal_maps: true,
+            alpha_mask: true,
+            alpha_blend: true,
+            unlit: true,
+            area_lights: true,
+            point_lights: true,
+            spot_lights: true,
+            directional_lights: true,
+            environment: true,
+        }
+    }
+
     /// Can the shape render this?
     pub fn fit<F: Shape>(&self) -> bool {
         let alpha = self.alpha_mask || self.alpha_blend;

@@ -8,6 +8,7 @@
 mod app;
 mod camera_bar;
 mod cell;
+mod features;
 mod format;
 mod help;
 mod image_view;

@@ -92,6 +92,7 @@ mod tests {
             light_name: None,
             material: None,
             model: None,
+            look: None,
             emitter: false,
             alpha: [1.0; 3],
             pdf_fwd: 1.0,

@@ -1,12 +1,13 @@
 //! The scene menu: the built-in scenes, a file, and the environment that lights it.
 
+use super::features;
 use super::live::Live;
 use super::state::{ChosenEnvironment, Opening, State};
 use super::text::Text;
 use super::widgets::labelled;
 use crate::scene::builtin;
 use crate::scene::environment::EnvironmentSource;
-use eframe::egui::{ComboBox, DragValue, Key, Label, PopupCloseBehavior, TextEdit, Ui};
+use eframe::egui::{ComboBox, DragValue, Key, Label, PopupCloseBehavior, RichText, TextEdit, Ui};
 use std::path::Path;
 
 /// The menu holds a path to read and every built-in scene without scrolling, points.
@@ -32,6 +33,10 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
                 state.open = Some(Opening::of(scene.name));
                 ui.close();
             }
+        }
+        if let Some(scene) = live.scene() {
+            ui.separator();
+            ui.label(RichText::new(features::sentence(state, scene)).small().weak());
         }
         ui.separator();
         if let Some(path) = path_field(ui, state, Text::ScenePath, |state| &mut state.scene_field) {

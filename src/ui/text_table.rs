@@ -215,6 +215,11 @@ texts! {
     HelpPosition: "Position in the file's coordinates", "文件坐标系中的位置";
     HelpAlpha: "Throughput of its subpath up to here: f over density", "子路径到此为止的吞吐量：f 除以概率密度";
     HelpSurvival: "Probability of surviving Russian roulette here", "在此通过俄罗斯轮盘赌的概率";
+    HelpBaseColor: "Base colour here, linear: textures and vertex colours are in it", "此处的基色（线性），已含纹理与顶点颜色";
+    RoughMetallic: "rough · metal", "粗糙 · 金属";
+    HelpRoughMetallic: "Roughness (α of GGX is its square) and the share of the metal", "粗糙度（GGX 的 α 为其平方）与金属成分的比例";
+    HelpOpacity: "Alpha here: the probability with which a walk finds the surface, and what a connection edge that crosses it loses", "此处的不透明度：游走遇到该表面的概率，也是穿过它的连接边所损失的比例";
+    HelpVisibility: "V: what the surfaces across the edge let through", "V：横在连接边上的表面所透过的比例";
     HelpPLight: "Density of this vertex by a light subpath that comes through the vertex before it", "光源子路径经前一顶点到达此顶点的概率密度";
     HelpPEye: "Density of this vertex by an eye subpath that comes through the vertex after it", "视线子路径经后一顶点到达此顶点的概率密度";
     PdfFwd: "p forward", "p 正向";
@@ -308,4 +313,23 @@ texts! {
     KeyReset: "Reset the view: fit, exposure 0, sRGB", "重置视图：适应、曝光 0、sRGB";
     KeyPause: "Pause or resume rendering", "暂停或继续渲染";
     KeyHelp: "This list of keys", "显示此快捷键列表";
+    SceneNeeds: "{0} triangles; needs: {1}", "{0} 个三角形；需要：{1}";
+    FeatureAreaLights: "area lights", "面光源";
+    FeatureTwoSided: "two-sided emitters", "双面发光体";
+    FeaturePoint: "point lights", "点光源";
+    FeatureSpot: "spot lights", "聚光灯";
+    FeatureDirectional: "directional lights", "平行光";
+    FeatureEnvironment: "environment", "环境光";
+    FeatureMirror: "mirror", "镜面";
+    FeatureGlass: "glass", "玻璃";
+    FeatureThinGlass: "thin glass", "薄玻璃";
+    FeatureRoughMetal: "rough metal", "粗糙金属";
+    FeatureCoat: "coat", "涂层";
+    FeatureUnlit: "unlit", "无光照材质";
+    FeatureTextures: "textures", "纹理";
+    FeatureVertexColors: "vertex colours", "顶点颜色";
+    FeatureNormalMaps: "normal maps", "法线贴图";
+    FeatureShadingNormals: "shading normals", "着色法线";
+    FeatureAlphaMask: "alpha mask", "透明遮罩";
+    FeatureAlphaBlend: "alpha blend", "透明混合";
 }

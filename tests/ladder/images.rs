@@ -1,7 +1,7 @@
 //! Rung 3 and 7, whole images: integrators and settings that must not change the mean, and windows that must not change a bit.
 
 use crate::stats::{Moments, z_between, z_limit};
-use crate::{emitters_scenes, scenes};
+use crate::{emitters_scenes, scenes, surface_scenes};
 use bdpt_explorer::bdpt::{Heuristic, HeuristicKind, Settings, Strategy, StrategySet};
 use bdpt_explorer::engine::{Crop, Job, Session};
 use bdpt_explorer::math::Vec3;
@@ -99,6 +99,9 @@ fn integrators_roulette_and_heuristics_keep_the_mean() {
         (scenes::tilted(), false),
         (emitters_scenes::under_the_sky(), true),
         (emitters_scenes::dirac_room(), true),
+        (surface_scenes::glossy_tilted(), true),
+        (surface_scenes::textured(), true),
+        (surface_scenes::veils(true), true),
     ] {
         let base = Settings { max_edges: 4, ..Settings::default() };
         let mut variants = vec![
@@ -169,7 +172,7 @@ fn the_image_is_the_sum_of_its_layers() {
 /// A crop, and tiles put together, are bit for bit what the full image has there.
 #[test]
 fn crops_and_tiles_are_the_full_image() {
-    for scene in [scenes::builtin("cornell-spheres"), emitters_scenes::everything()] {
+    for scene in [scenes::builtin("cornell-spheres"), emitters_scenes::everything(), surface_scenes::veils(true)] {
         let base = job(&scene, [40, 32], Settings { max_edges: 5, ..Settings::default() });
         let full = rendered(base.clone(), 3).image();
         let tiles = [(0, 0, 13, 32), (13, 0, 27, 10), (13, 10, 27, 22)];
@@ -209,7 +212,9 @@ fn the_image_depends_on_the_seed_and_not_on_the_threads_or_the_steps() {
 #[test]
 fn records_add_up_to_the_image() {
     let mut on_lens = 0;
-    for scene in [scenes::builtin("cornell-spheres"), emitters_scenes::furnace_with_lens(1.0, 0.7), emitters_scenes::everything()] {
+    let more = [surface_scenes::textured(), surface_scenes::veils(true)];
+    let scenes = [scenes::builtin("cornell-spheres"), emitters_scenes::furnace_with_lens(1.0, 0.7), emitters_scenes::everything()];
+    for scene in scenes.into_iter().chain(more) {
         on_lens += add_up(&scene);
     }
     assert!(on_lens >= 5, "{on_lens} contributions of t = 0 are too few to mean anything");

@@ -1,6 +1,7 @@
 //! The ladder: how we know that the estimator is right. Every rung has a negative control that must fail.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs, reason = "tests may panic")]
 
+mod alpha;
 mod emitters;
 mod emitters_scenes;
 mod hard;
@@ -13,4 +14,6 @@ mod scenes;
 mod sky;
 mod stats;
 mod strategies;
+mod surface_scenes;
+mod surfaces;
 mod weights;

@@ -1,6 +1,6 @@
 //! Rung 2: sampled paths rebuilt as every strategy that could make them.
 
-use crate::{emitters_scenes, scenes};
+use crate::{emitters_scenes, scenes, surface_scenes};
 use bdpt_explorer::bdpt::connect::Sample;
 use bdpt_explorer::bdpt::mis::{log_densities, mis_weight, mis_weights_by_definition};
 use bdpt_explorer::bdpt::path::FullPath;
@@ -8,7 +8,7 @@ use bdpt_explorer::bdpt::replay::{ReplayError, replay};
 use bdpt_explorer::bdpt::walk::Context;
 use bdpt_explorer::bdpt::{Reason, Settings, Strategy, Vertex};
 use bdpt_explorer::rng::SampleId;
-use bdpt_explorer::scene::{DIELECTRIC, Scene, View};
+use bdpt_explorer::scene::{COAT, CONDUCTOR, DIELECTRIC, Material, Scene, View};
 use std::sync::Arc;
 
 const K: u32 = 7;
@@ -67,7 +67,8 @@ fn conditioning(context: &Context, x: &[Vertex]) -> f64 {
     let mut sum = 0.0;
     for i in 1..x.len() - 1 {
         let (v, material) = (&x[i], &context.scene.materials[x[i].material as usize]);
-        if !material.is_dirac() && v.n_s == v.n_g {
+        let glossy = matches!(material.kind, CONDUCTOR | COAT);
+        if !material.is_dirac() && !glossy && v.n_s == v.n_g {
             continue;
         }
         let mut smallest: f32 = 1.0;
@@ -79,7 +80,9 @@ fn conditioning(context: &Context, x: &[Vertex]) -> f64 {
                 smallest = smallest.min((1.0 - material.ior * material.ior * (1.0 - cos * cos)).abs().sqrt());
             }
         }
-        sum += (0.3 / f64::from(smallest)).powi(2);
+        // A narrow lobe turns a rounded direction into another density: ∂ ln D is 2/α at most.
+        let narrow = if glossy { 1.0 + 0.1 / f64::from(Material::alpha(v.look.roughness)) } else { 1.0 };
+        sum += (0.3 / f64::from(smallest)).powi(2) * narrow;
     }
     sum.max(1.0)
 }
@@ -146,6 +149,9 @@ fn all_scenes() -> Vec<Arc<Scene>> {
         emitters_scenes::sky_and_glass(),
         emitters_scenes::everything(),
     ]
+    .into_iter()
+    .chain(surface_scenes::all())
+    .collect()
 }
 
 /// At least 10⁵ sampled, well-conditioned paths (and many others) in six scenes, with and without roulette, each rebuilt as every strategy that could make it:

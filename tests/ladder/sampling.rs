@@ -9,17 +9,17 @@ use bdpt_explorer::rng::{SampleId, pair};
 use bdpt_explorer::scene::bsdf::fresnel_dielectric;
 use bdpt_explorer::scene::{Bsdf, General, Look, Material, TransportMode, View};
 
-const LEVEL: f64 = 1e-3 / 32.0;
+pub const LEVEL: f64 = 1e-3 / 32.0;
 const N: u32 = 400_000;
 const Z_BINS: usize = 16;
 const PHI_BINS: usize = 24;
 
-fn numbers(i: u32, block: u32) -> [f32; 4] {
+pub fn numbers(i: u32, block: u32) -> [f32; 4] {
     SampleId { x: i & 1023, y: i >> 10, sample: 5, seed: 11 }.numbers(block)
 }
 
 /// p-value of directions against a density per solid angle; `None` counts as absorbed, and so does what the density lacks.
-fn directions(draw: impl Fn(u32) -> Option<Vec3>, pdf_sa: impl Fn(Vec3) -> f32) -> f64 {
+pub fn directions(draw: impl Fn(u32) -> Option<Vec3>, pdf_sa: impl Fn(Vec3) -> f32) -> f64 {
     let mut observed = vec![0u64; Z_BINS * PHI_BINS + 1];
     for i in 0..N {
         let bin = draw(i).map_or(Z_BINS * PHI_BINS, |w| {

@@ -13,6 +13,11 @@ impl Room {
         Self(Parts { name: name.into(), ..Parts::default() })
     }
 
+    /// What it is made of, so far.
+    pub fn parts(&mut self) -> &mut Parts {
+        &mut self.0
+    }
+
     pub fn material(&mut self, material: Material) -> u32 {
         self.0.materials.push((format!("m{}", self.0.materials.len()), material));
         self.0.materials.len() as u32 - 1

@@ -5,7 +5,7 @@
 //! where either cannot sample. Both means come from the same pairs of subpaths, so their difference is tested as a pair.
 
 use crate::stats::{Moments, z_limit};
-use crate::{emitters_scenes, scenes};
+use crate::{emitters_scenes, scenes, surface_scenes};
 use bdpt_explorer::bdpt::connect::Sample;
 use bdpt_explorer::bdpt::mis::log_densities;
 use bdpt_explorer::bdpt::walk::Context;
@@ -100,6 +100,14 @@ fn every_pair_of_strategies_agrees_per_length() {
         (emitters_scenes::dirac_room(), 300_000),
         (emitters_scenes::under_the_sky(), 1_000_000),
         (emitters_scenes::everything(), 300_000),
+        (surface_scenes::glossy(), 400_000),
+        (surface_scenes::glossy_tilted(), 600_000),
+        (surface_scenes::glossy_room(), 200_000),
+        (surface_scenes::textured(), 400_000),
+        (surface_scenes::veils(false), 400_000),
+        (surface_scenes::veils(true), 600_000),
+        (surface_scenes::veils_under_the_sky(), 400_000),
+        (surface_scenes::furnace_with_veils(1.0, 0.6, true), 200_000),
     ];
     let (mut results, mut with_t_0) = (Vec::new(), 0);
     for (scene, samples) in &scenes {

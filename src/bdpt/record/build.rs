@@ -1,6 +1,9 @@
 //! Making a record: the sample is run again by the renderer's own code, and written down.
 
-use super::{Measure, PathRecord, PathVertexRecord, RECORD_VERSION, SplitReason, SplitRecord, StrategyRecord, SubpathRecord, VertexRecord};
+use super::{
+    LookRecord, Measure, PathRecord, PathVertexRecord, RECORD_VERSION, SplitReason, SplitRecord, StrategyRecord, SubpathRecord,
+    VertexRecord,
+};
 use crate::bdpt::connect::{Contribution, Sample};
 use crate::bdpt::mis::{log_densities, mis_weights_by_definition};
 use crate::bdpt::path::FullPath;
@@ -66,6 +69,12 @@ fn vertex_record(scene: &Scene, v: &Vertex) -> VertexRecord {
         light_name: scene.lights.name(v.light).map(str::to_owned),
         material: on_surface.then(|| scene.material_names[v.material as usize].clone()),
         model: on_surface.then(|| scene.materials[v.material as usize].kind_name()),
+        look: on_surface.then(|| LookRecord {
+            color: v.look.color.to_array(),
+            roughness: v.look.roughness,
+            metallic: v.look.metallic,
+            opacity: v.look.opacity,
+        }),
         emitter: v.emits(),
         alpha: v.alpha.to_array(),
         pdf_fwd: v.pdf_fwd_area,
@@ -95,6 +104,7 @@ fn strategy_record(context: &Context, sample: &mut Sample, strategy: Strategy) -
         raster: None,
         vertices: Vec::new(),
         blocker: None,
+        visibility: None,
         p: None,
         connection_term: [0.0; 3],
         contribution_unweighted: [0.0; 3],
@@ -124,6 +134,13 @@ fn strategy_record(context: &Context, sample: &mut Sample, strategy: Strategy) -
                 | Reason::Removed
         )
     );
+    if strategy.s >= 1 && strategy.t >= 1 {
+        record.visibility = match record.reason {
+            None => Some(sample.edge_visibility()),
+            Some(Reason::Blocked) => Some(0.0),
+            Some(_) => None,
+        };
+    }
     if !no_path {
         record.write_path(context, sample, joined);
     }

@@ -60,6 +60,10 @@ fn full(ui: &mut Ui, state: &mut State, existence: &Existence, strategy: &Strate
                 ui.colored_label(theme::SELECTED, "↕");
                 let term = rgb(strategy.connection_term);
                 ui.label(RichText::new(fill(state.say(Text::ConnectionHere), &[&term])).small());
+                if let Some(v) = strategy.visibility.filter(|v| *v < 1.0) {
+                    let text = RichText::new(format!("V = {}", format::weight(f64::from(v)))).small();
+                    ui.label(text).on_hover_text(state.say(Text::HelpVisibility));
+                }
             });
         }
     }
@@ -152,6 +156,20 @@ fn common_rows(ui: &mut Ui, state: &State, vertex: &VertexRecord) {
     row(ui, "α", &rgb(vertex.alpha), state.say(Text::HelpAlpha));
     if vertex.survival < 1.0 {
         row(ui, "q", &format::weight(f64::from(vertex.survival)), state.say(Text::HelpSurvival));
+    }
+    look_rows(ui, state, vertex);
+}
+
+/// What the surface looks like just here.
+fn look_rows(ui: &mut Ui, state: &State, vertex: &VertexRecord) {
+    let Some(look) = &vertex.look else { return };
+    row(ui, "ρ", &rgb(look.color), state.say(Text::HelpBaseColor));
+    if matches!(vertex.model, Some("rough metal" | "coat")) {
+        let numbers = format!("{} · {}", format::weight(f64::from(look.roughness)), format::weight(f64::from(look.metallic)));
+        row(ui, state.say(Text::RoughMetallic), &numbers, state.say(Text::HelpRoughMetallic));
+    }
+    if look.opacity < 1.0 {
+        row(ui, "a", &format::weight(f64::from(look.opacity)), state.say(Text::HelpOpacity));
     }
 }
 
