@@ -141,10 +141,35 @@ class Glb:
             used.add("KHR_lights_punctual")
         root["extensionsUsed"] = sorted(used)
         text = json.dumps(root).encode()
-        text += b" " * (-len(text) % 4)
-        chunks = [(b"JSON", text), (b"BIN\0", self.data)]
-        body = b"".join(struct.pack("<I4s", len(data), kind) + data for kind, data in chunks)
-        path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body)
+        path.write_bytes(container(text, self.data))
+
+
+def container(text: bytes, data: bytes) -> bytes:
+    """A .glb file of its two parts."""
+    chunks = [(b"JSON", text + b" " * (-len(text) % 4)), (b"BIN\0", data + bytes(-len(data) % 4))]
+    body = b"".join(struct.pack("<I4s", len(data), kind) + data for kind, data in chunks)
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
+
+
+def packed(path: Path) -> tuple[dict, bytearray]:
+    """A .gltf file's JSON and one buffer that also holds the files beside it."""
+    root, data, starts = json.loads(path.read_text()), bytearray(), []
+    for item in root.get("buffers", []):
+        starts.append(len(data))
+        data.extend((path.parent / item["uri"]).read_bytes())
+        data.extend(bytes(-len(data) % 4))
+    for view in root["bufferViews"]:
+        view["byteOffset"] = view.get("byteOffset", 0) + starts[view["buffer"]]
+        view["buffer"] = 0
+    for item in root.get("images", []):
+        file = path.parent / item.pop("uri")
+        view = {"buffer": 0, "byteOffset": len(data), "byteLength": file.stat().st_size}
+        root["bufferViews"].append(view)
+        item["bufferView"] = len(root["bufferViews"]) - 1
+        item["mimeType"] = "image/png" if file.suffix == ".png" else "image/jpeg"
+        data.extend(file.read_bytes())
+        data.extend(bytes(-len(data) % 4))
+    return root, data
 
 
 def looking(position, target) -> list[float]:
