@@ -1,12 +1,10 @@
 #!/usr/bin/env python3
-"""Writes the scenes of the comparison: one for each kind of light and lens, all Lambert.
+"""Writes the scenes of the comparison: one for each kind of light, of lens and of surface.
 
     python3 tests/mitsuba/scenes.py FOLDER
 
-Each is a stage (floor, back wall, one red and one blue side wall, open to the front and above)
-with a few blocks, about 4 m wide.  Between them they use indices of 8, 16 and 32 bits, nested
-nodes, mirrored and uneven scales, a matrix, and node translations far from zero, so that a slip
-in reading glTF shows too.
+Prints a line for each: the file, how it is compared, `exact` (compare.py) or `approximate`
+(blocks.py, with Mitsuba's own material), and the samples per pixel and seed that it takes.  Here are the lights and the lens, all Lambert.
 """
 
 from __future__ import annotations
@@ -16,53 +14,17 @@ from pathlib import Path
 
 import numpy as np
 
-from glb import Glb, cube, looking, turn, write_hdr
-
-WHITE = [0.75, 0.74, 0.72]
-OCHRE = [0.7, 0.5, 0.25]
-RED = [0.65, 0.12, 0.1]
-BLUE = [0.15, 0.25, 0.65]
-GREEN = [0.2, 0.6, 0.25]
-# Where the cameras stand, what they look at, their vertical field of view.
-EYE, LOOK_AT, YFOV = [0.4, 1.6, 5.2], [0.1, 0.8, 0], 0.68
-
-
-def stage(back_wall: float = 2.2) -> Glb:
-    """The stage with three blocks, without camera and light."""
-    glb = Glb()
-    colors = {"white": WHITE, "ochre": OCHRE, "red": RED, "blue": BLUE, "green": GREEN}
-    paint = {name: glb.material(color) for name, color in colors.items()}
-    h, low = back_wall, 1.2
-    walls = {
-        "white": [[-2, 0, 2], [2, 0, 2], [2, 0, -2], [-2, 0, -2]],
-        "ochre": [[-2, 0, -2], [2, 0, -2], [2, h, -2], [-2, h, -2]],
-        "red": [[-2, 0, 2], [-2, 0, -2], [-2, low, -2], [-2, low, 2]],
-        "blue": [[2, 0, -2], [2, 0, 2], [2, low, 2], [2, low, -2]],
-    }
-    for name, quad in walls.items():
-        glb.node(mesh=glb.mesh([quad], paint[name], 5121))
-    # One cube's mesh, placed thrice: turned and stretched, mirrored, and as the child of a child.
-    white, green = glb.mesh(cube(), paint["white"], 5125), glb.mesh(cube(), paint["green"], 5123)
-    glb.node(mesh=white, translation=[-0.8, 0.75, -0.6], rotation=turn(25), scale=[0.4, 0.7, 0.35])
-    glb.node(mesh=green, translation=[0.9, 0.4, 0.1], rotation=turn(-20), scale=[-0.35, 0.35, 0.45])
-    outer = glb.node(translation=[1000.1, 0, 3], rotation=turn(90))
-    inner = glb.node(outer, translation=[2.6, 0.2, -999.9], scale=[0.5, 0.5, 0.5])
-    glb.node(inner, mesh=white, rotation=turn(10), scale=[0.3, 0.3, 0.5])
-    return glb
+import surfaces
+from glb import cube, looking, turn, write_hdr
+from stage import EYE, GREEN, LOOK_AT, RED, WHITE, YFOV, hang_lamp, stage
 
 
 def area(folder: Path) -> None:
     """A lamp overhead that shines downwards only, in a mirrored node; a small glowing block."""
     glb = stage()
-    lamp = glb.mesh(
-        [[[-0.5, 0, 0.4], [0.5, 0, 0.4], [0.5, 0, -0.4], [-0.5, 0, -0.4]]],
-        glb.material(WHITE, [9, 8, 6]),
-    )
-    # The quad faces up; mirrored in y it faces down.
-    glb.node(mesh=lamp, translation=[0.2, 1.75, -0.3], scale=[1, -1, 1])
+    hang_lamp(glb, [9, 8, 6])
     glow = glb.mesh(cube(), glb.material(GREEN, [0.5, 2, 4]))
     glb.node(mesh=glow, translation=[-0.3, 0.3, 0.9], rotation=turn(40), scale=[0.15, 0.15, 0.15])
-    glb.camera(EYE, LOOK_AT, YFOV)
     glb.write(folder / "area.glb")
 
 
@@ -144,7 +106,13 @@ def sky(phi: np.ndarray, theta: np.ndarray) -> np.ndarray:
     return 0.8 * sides + 6 * lobe[..., None] * np.array([1, 0.85, 0.6])
 
 
-SCENES = [area, lens, point, spot, directional, constant, environment]
+LIGHTS = [area, lens, point, spot, directional, constant, environment]
+SCENES = [*LIGHTS, *surfaces.SCENES]
+COMPARISONS = [
+    *((make, "exact", 64) for make in LIGHTS),
+    *((make, "exact", 32) for make in surfaces.SCENES),
+    (surfaces.rough_metal, "approximate", 64),
+]
 
 if __name__ == "__main__":
     if len(sys.argv) != 2:
@@ -154,4 +122,5 @@ if __name__ == "__main__":
     target.mkdir(parents=True, exist_ok=True)
     for make in SCENES:
         make(target)
-    print("\n".join(f"{make.__name__}.glb" for make in SCENES))
+    for make, mode, spp in COMPARISONS:
+        print(f"{make.__name__}.glb {mode} {spp}")

@@ -42,8 +42,19 @@ def use_plugins() -> None:
     """Switches to the variant in which `plugins.py` is fast, and registers what is in there."""
     if not LLVM:
         raise Unusable(
-            f"this scene needs LLVM ≥ {OLDEST_LLVM} for Mitsuba: apt-get install libllvm19, "
-            "or set DRJIT_LIBLLVM_PATH"
+            f"Mitsuba needs LLVM ≥ {OLDEST_LLVM} for this: apt-get install libllvm19, or set "
+            "DRJIT_LIBLLVM_PATH"
         )
     mi.set_variant(COMPILED)
     import plugins  # noqa: F401  (classes of the variant that is set when they are made)
+
+
+if __name__ == "__main__":
+    # Can everything be compared here?
+    import sys
+
+    try:
+        use_plugins()
+        print(f"Mitsuba {mi.__version__}, {LLVM}")
+    except Unusable as error:
+        sys.exit(str(error))
