@@ -38,6 +38,8 @@ class Skin:
     uv: np.ndarray | None = None
     # Does the bitangent point along +v of the texture, that is, down?
     mirrored: bool = False
+    # Is there more to its normals than its faces and texture coordinates say?
+    smooth: bool = False
 
 
 @dataclass
@@ -138,17 +140,21 @@ def emitter(item: Material, skin: Skin) -> dict | None:
 def bsdf(item: Material, skin: Skin, model: str) -> tuple[dict, set[str]]:
     """How a material scatters, and which models it took.
 
-    Inside out: the surface seen from its front, `normalmap`, `twosided`, `mask`.
+    Inside out: the surface seen from its front, `normalmap`, `twosided`, `mask`.  Our own comes
+    with normals and both sides: Mitsuba knows no tangents, and does not ask the faces' normals.
     """
     if item.unlit:
         return {"type": "diffuse", "reflectance": 0.0}, set()
     scattering, used = dirac(item, skin), set()
     if scattering is None:
-        if item.metallic == 0 and item.f90 == 0:
+        lambert = item.metallic == 0 and item.f90 == 0
+        if model == OURS and (skin.smooth or not lambert):
+            scattering, used = ours(item, skin), {OURS}
+        elif lambert:
             scattering = {"type": "diffuse", "reflectance": color(item, skin)}
+            scattering = two_sided(item, skin, scattering)
         else:
-            scattering, used = rough(item, skin, model), {model}
-        scattering = two_sided(item, skin, scattering)
+            scattering, used = two_sided(item, skin, principled(item, skin)), {PRINCIPLED}
     if item.alpha_mode == "OPAQUE":
         return scattering, used
     return {"type": "mask", "opacity": opacity(item, skin), "nested": scattering}, used
@@ -181,20 +187,30 @@ def dirac(item: Material, skin: Skin) -> dict | None:
     }
 
 
-def rough(item: Material, skin: Skin, model: str) -> dict:
-    """Metallic-roughness: our own formulas, or what Mitsuba has instead."""
+def ours(item: Material, skin: Skin) -> dict:
+    """Metallic-roughness by our own formulas."""
+    use_plugins()
+    surface = {"type": "gltf_surface", "color": color(item, skin), **metallic_roughness(item, skin)}
+    if item.normal_map:
+        surface["normals"] = normals(item, skin, 1)
+    return {**surface, "f0": rgb(item.f0), "f90": float(item.f90)}
+
+
+def principled(item: Material, skin: Skin) -> dict:
+    """What Mitsuba has instead."""
+    root = min(max(item.f0), 0.99) ** 0.5
+    surface = {"type": "principled", "base_color": color(item, skin), "spec_tint": 0.0}
+    return {**surface, **metallic_roughness(item, skin), "eta": (1 + root) / (1 - root)}
+
+
+def metallic_roughness(item: Material, skin: Skin) -> dict:
+    """Both, numbers or textures; both models take α = roughness²."""
     values = {"roughness": item.roughness, "metallic": item.metallic}
     if item.metallic_roughness_map:
         for i, name in ((1, "roughness"), (2, "metallic")):
             texels = item.metallic_roughness_map.texels[..., i : i + 1] * values[name]
             values[name] = item.metallic_roughness_map.bitmap(texels, skin.uv)
-    if model == OURS:
-        use_plugins()
-        surface = {"type": "gltf_surface", "color": color(item, skin), **values}
-        return {**surface, "f0": rgb(item.f0), "f90": float(item.f90)}
-    root = min(max(item.f0), 0.99) ** 0.5
-    surface = {"type": "principled", "base_color": color(item, skin), **values}
-    return {**surface, "spec_tint": 0.0, "eta": (1 + root) / (1 - root)}
+    return values
 
 
 def color(item: Material, skin: Skin) -> dict:
@@ -241,6 +257,14 @@ def product(first: dict, second: dict) -> dict:
     return {"type": "gltf_product", "first": first, "second": second}
 
 
+def normals(item: Material, skin: Skin, side: int) -> dict:
+    """The normal map, scaled, its green along n × t; turned around but for z if `side` is −1."""
+    scale = side * item.json["normalTexture"].get("scale", 1.0)
+    turn = np.array([scale, -scale if skin.mirrored else scale, 1.0])
+    values = 0.5 + (item.normal_map.texels[..., :3] - 0.5) * turn
+    return item.normal_map.bitmap(values, skin.uv)
+
+
 def two_sided(item: Material, skin: Skin, front: dict) -> dict:
     """Mitsuba's surfaces reflect on their front only, ours on both sides.
 
@@ -249,17 +273,10 @@ def two_sided(item: Material, skin: Skin, front: dict) -> dict:
     """
     if item.normal_map is None:
         return {"type": "twosided", "nested": front}
-    scale = item.json["normalTexture"].get("scale", 1.0)
-    down = -1 if skin.mirrored else 1
-    sides = {}
-    for name, x, y in (("a_front", scale, scale * down), ("b_back", -scale, -scale * down)):
-        values = 0.5 + (item.normal_map.texels[..., :3] - 0.5) * np.array([x, y, 1.0])
-        sides[name] = {
-            "type": "normalmap",
-            "normalmap": item.normal_map.bitmap(values, skin.uv),
-            # Mitsuba's own remedies for normals that face away.
-            "flip_invalid_normals": False,
-            "use_shadowing_function": False,
-            "nested": front,
-        }
+    # Without Mitsuba's own remedies for normals that face away.
+    bare = {"flip_invalid_normals": False, "use_shadowing_function": False}
+    sides = {
+        name: {"type": "normalmap", "normalmap": normals(item, skin, side), "nested": front, **bare}
+        for name, side in (("a_front", 1), ("b_back", -1))
+    }
     return {"type": "twosided", **sides}

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from gltf import Gltf, Unusable, normalized
-from materials import Material, Skin, bsdf, emitter, material, vertex_colors
+from materials import OURS, Material, Skin, bsdf, emitter, material, vertex_colors
 
 # Tangents that are further than this from the coordinates' own are worth a note, radians.
 TANGENTS_DIFFER = 1e-2
@@ -34,6 +34,7 @@ class Corners:
     positions: np.ndarray
     normals: np.ndarray | None
     uv: np.ndarray | None
+    # Only if there is a normal map.
     tangents: np.ndarray | None
     colors: np.ndarray | None
     # Which triangles have their bitangent along +v of the texture.
@@ -49,30 +50,34 @@ def meshes(gltf: Gltf, primitive: dict, world: np.ndarray, model: str, notes: li
     positions, triangles = triangle_list(gltf, primitive)
     closed = is_closed(positions, triangles)
     corners = place(gltf, primitive, world, (positions, triangles), item)
-    if corners.normals is not None:
-        notes.append(f"{item.name}: smooth normals; silhouettes may differ a little, see `place`")
-        if any(item.emission):
-            raise Unusable(f"{item.name}: an emitter with smooth normals (Mitsuba emits by those)")
+    smooth, result, used = corners.normals is not None, [], set()
+    if smooth and any(item.emission):
+        raise Unusable(f"{item.name}: an emitter with smooth normals (Mitsuba emits by those)")
     angle = 0.0 if item.normal_map is None else tangent_error(corners)
-    if angle > TANGENTS_DIFFER:
-        notes.append(f"{item.name}: tangents up to {math.degrees(angle):.0f}° off, see `place`")
-    result, used = [], set()
     parts = [False, True] if item.normal_map is not None else [None]
     for part in parts:
         some = slice(None) if part is None else corners.mirrored == part
         if not len(corners.positions[some]):
             continue
-        uv, colors = (None if x is None else x[some] for x in (corners.uv, corners.colors))
-        skin = Skin(closed, colors, uv, bool(part))
+        own, uv, tangents, colors = (
+            None if x is None else x[some]
+            for x in (corners.normals, corners.uv, corners.tangents, corners.colors)
+        )
+        skin = Skin(closed, colors, uv, bool(part), smooth or angle > TANGENTS_DIFFER)
         if colors is not None:
             skin.colors = colors.reshape(-1, 4)
         scattering, models = bsdf(item, skin, model)
         used |= models
-        normals = None if corners.normals is None else corners.normals[some]
         attributes = vertex_colors(item, skin)
-        result.append(
-            Mesh(corners.positions[some], normals, uv, scattering, emitter(item, skin), attributes)
-        )
+        if tangents is not None:
+            attributes["vertex_tangent"] = tangents.reshape(-1, 3)
+        shape = (corners.positions[some], own, uv)
+        result.append(Mesh(*shape, scattering, emitter(item, skin), attributes))
+    if OURS not in used:
+        if smooth:
+            notes.append(f"{item.name}: smooth normals; Mitsuba does not ask the faces' too")
+        if angle > TANGENTS_DIFFER:
+            notes.append(f"{item.name}: tangents up to {math.degrees(angle):.0f}° off")
     return result, used
 
 
@@ -90,9 +95,8 @@ def triangle_list(gltf: Gltf, primitive: dict) -> tuple[np.ndarray, np.ndarray]:
 def place(gltf: Gltf, primitive: dict, world: np.ndarray, shape: tuple, item: Material) -> Corners:
     """The triangles' corners in world coordinates, with all that the material asks for there.
 
-    A mirroring transform turns triangles around, as glTF demands.  Where a smooth normal and the
-    face disagree on the side of a direction, the program scatters nothing; Mitsuba asks the normal
-    alone.  Tangents are the texture coordinates' own, by face: Mitsuba knows no others.
+    A mirroring transform turns triangles around, as glTF demands.  Without TANGENT, tangents are
+    the texture coordinates' own, by face; Mitsuba knows no others.
     """
     (positions, triangles), (matrix, offset) = shape, (world[:3, :3], world[:3, 3])
     attributes, turned = primitive["attributes"], np.linalg.det(matrix) < 0
@@ -122,6 +126,8 @@ def place(gltf: Gltf, primitive: dict, world: np.ndarray, shape: tuple, item: Ma
             tangents = gltf.read(attributes["TANGENT"]).astype(float)[triangles]
             mirrored = (tangents[:, 0, 3] < 0) != turned
             tangents = tangents[..., :3] @ matrix.T
+        elif item.normal_map is not None:
+            tangents = uv_tangents(corners, uv)
     if "COLOR_0" in attributes:
         colors = gltf.read(attributes["COLOR_0"]).astype(float)[triangles]
         if colors.shape[2] == 3:
@@ -129,22 +135,22 @@ def place(gltf: Gltf, primitive: dict, world: np.ndarray, shape: tuple, item: Ma
     return Corners(corners, normals, uv, tangents, colors, mirrored)
 
 
+def uv_tangents(corners: np.ndarray, uv: np.ndarray) -> np.ndarray:
+    """Each face's ∂p/∂u, of any length, at its corners."""
+    (e, f), (u, v) = ([x[:, i] - x[:, 0] for i in (1, 2)] for x in (corners, uv))
+    det = u[:, :1] * v[:, 1:] - u[:, 1:] * v[:, :1]
+    return np.repeat(((e * v[:, 1:] - f * u[:, 1:]) * np.sign(det))[:, None], 3, axis=1)
+
+
 def tangent_error(corners: Corners) -> float:
     """The largest angle between a corner's tangent and its texture coordinates' own."""
-    if corners.tangents is None:
-        return 0.0
-    p, uv = corners.positions, corners.uv
-    (e, f), (u, v) = ([x[:, i] - x[:, 0] for i in (1, 2)] for x in (p, uv))
-    det = u[:, :1] * v[:, 1:] - u[:, 1:] * v[:, :1]
-    own = np.repeat(((e * v[:, 1:] - f * u[:, 1:]) * np.sign(det))[:, None], 3, axis=1)
-    normals = np.cross(e, f)[:, None] if corners.normals is None else corners.normals
-    normals = normalized(normals)
-    flat = [
-        x - normals * np.sum(x * normals, axis=-1, keepdims=True) for x in (own, corners.tangents)
-    ]
+    p, normals = corners.positions, corners.normals
+    if normals is None:
+        normals = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])[:, None]
+    normals, both = normalized(normals), (uv_tangents(p, corners.uv), corners.tangents)
+    flat = [x - normals * np.sum(x * normals, axis=-1, keepdims=True) for x in both]
     length = np.prod([np.linalg.norm(x, axis=-1) for x in flat], axis=0)
-    known = length > 0
-    cos = np.sum(flat[0] * flat[1], axis=-1)[known] / length[known]
+    cos = np.sum(flat[0] * flat[1], axis=-1)[length > 0] / length[length > 0]
     return float(np.arccos(np.clip(cos, -1, 1)).max(initial=0))
 
 

@@ -10,7 +10,8 @@ metallic-roughness                                  `plugins.Surface`, our own f
 glass: transmission 1, roughness < 0.03             `dielectric` (a closed mesh or a thickness)
                                                     or `thindielectric`, in vacuum
 textures, KHR_texture_transform, COLOR_0            `bitmap`, `mesh_attribute`, `plugins.Product`
-normalTexture                                       `normalmap`, on each side its own
+normalTexture on flat faces                         `normalmap`, on each side its own
+smooth normals; TANGENT off the coordinates' own    `plugins.Surface`; else noted
 scattering on both sides                            `twosided`
 alphaMode BLEND; MASK                               `mask`; with `plugins.Cutoff`; `volpath`
 emission, W m⁻² sr⁻¹, from the front face           `area`, with the normals of the faces

@@ -66,6 +66,28 @@ class Normals(Scenes):
             glb.lists["nodes"][-2]["matrix"] = looking(eye, [0, 0, 0])
             self.assertEqual(self.render(glb).max() > 0.01, lit)
 
+    def test_given(self):
+        """NORMAL off the face's, and a map whose TANGENT is not along +u: our own surface."""
+        texel = np.array([[[204, 166, 230]]])
+        x, y, z = normalized(texel[0, 0] / 127.5 - 1)
+        up = normalized(np.array([0.3, 1, 0.2]))
+        # ⊥ up, and not along +X.
+        tangent = normalized(np.array([1, 0, 1]) - up * np.dot(up, [1, 0, 1]))
+        for sign in (1, -1):
+            for mapped in (False, True):
+                attributes = {"TEXCOORD_0": UV, "NORMAL": [up], "TANGENT": [[*tangent, sign]]}
+                n = up
+                if mapped:
+                    n = x * tangent + y * sign * np.cross(up, tangent) + z * up
+                for to in ([2, 5, 1], [-4, 2, -3], [5, 0.3, 1], [-5, 0.3, 1], [4, -0.3, 2]):
+                    glb = stage(lambert(), **attributes)
+                    if mapped:
+                        glb.lists["materials"][0]["normalTexture"] = glb.texture(texel)
+                    glb.lists["nodes"][-1]["matrix"] = looking(to, [0, 0, 0])
+                    cos = np.dot(n, normalized(np.array(to))) if to[1] > 0 else 0
+                    found = self.render(glb, spp=16).mean(axis=(0, 1))
+                    np.testing.assert_allclose(found, np.array(RHO) * max(cos, 0), atol=4e-3)
+
 
 def microfacet(wi, wo, roughness, f0, f90, separable=False):
     """D G₂ F / (4 c_i c_o), z up, [direction, channel]."""
