@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -30,8 +31,8 @@ def extension(item: dict, name: str) -> dict:
 class Skin:
     """What a material needs to know of its mesh."""
 
-    # Does the mesh enclose a volume?
-    closed: bool = False
+    # Does the mesh enclose a volume?  Only glass asks.
+    closed: Callable[[], bool] = lambda: False
     # COLOR_0, a row of RGBA for each vertex in use.
     colors: np.ndarray | None = None
     # The texture coordinates in use, a row each.
@@ -88,11 +89,9 @@ def material(gltf: Gltf, index: int | None) -> Material:
     json = gltf.items("materials")[index] if index is not None else {}
     name = f"{gltf.path}: material {json.get('name', index)!r}"
     pbr, specular = json.get("pbrMetallicRoughness", {}), extension(json, "specular")
-    known = ("emissiveTexture", "normalTexture", "occlusionTexture")
     for part in json.get("extensions", {}).values():
         if any(key.endswith("Texture") for key in part):
             raise Unusable(f"{name}: textures of an extension")
-    maps = [texture(gltf, json.get(key), key == "emissiveTexture", name) for key in known[:2]]
     result = Material(
         name,
         json,
@@ -101,8 +100,8 @@ def material(gltf: Gltf, index: int | None) -> Material:
         pbr.get("roughnessFactor", 1.0),
         texture(gltf, pbr.get("baseColorTexture"), True, name),
         texture(gltf, pbr.get("metallicRoughnessTexture"), False, name),
-        maps[1],
-        maps[0],
+        texture(gltf, json.get("normalTexture"), False, name),
+        texture(gltf, json.get("emissiveTexture"), True, name),
     )
     strength = extension(json, "emissive_strength").get("emissiveStrength", 1.0)
     result.emission = np.maximum(np.array(json.get("emissiveFactor", [0, 0, 0])) * strength, 0.0)
@@ -178,7 +177,7 @@ def dirac(item: Material, skin: Skin) -> dict | None:
         raise Unusable(f"{item.name}: glass with KHR_materials_specular")
     if "attenuationColor" in volume and min(volume["attenuationColor"]) < 1:
         raise Unusable(f"{item.name}: absorption inside glass")
-    solid = volume.get("thicknessFactor", 0) > 0 or skin.closed
+    solid = volume.get("thicknessFactor", 0) > 0 or skin.closed()
     return {
         "type": "dielectric" if solid else "thindielectric",
         "int_ior": extension(item.json, "ior").get("ior", 1.5),

@@ -48,7 +48,6 @@ def meshes(gltf: Gltf, primitive: dict, world: np.ndarray, model: str, notes: li
     """
     item = material(gltf, primitive.get("material"))
     positions, triangles = triangle_list(gltf, primitive)
-    closed = is_closed(positions, triangles)
     corners = place(gltf, primitive, world, (positions, triangles), item)
     smooth, result, used = corners.normals is not None, [], set()
     if smooth and any(item.emission):
@@ -63,7 +62,8 @@ def meshes(gltf: Gltf, primitive: dict, world: np.ndarray, model: str, notes: li
             None if x is None else x[some]
             for x in (corners.normals, corners.uv, corners.tangents, corners.colors)
         )
-        skin = Skin(closed, colors, uv, bool(part), smooth or angle > TANGENTS_DIFFER)
+        skin = Skin(lambda: is_closed(positions, triangles), colors, uv, bool(part))
+        skin.smooth = smooth or angle > TANGENTS_DIFFER
         if colors is not None:
             skin.colors = colors.reshape(-1, 4)
         scattering, models = bsdf(item, skin, model)
