@@ -15,12 +15,14 @@ from urllib.parse import unquote
 import numpy as np
 
 COMPONENTS = {
+    5120: np.dtype("i1"),
     5121: np.dtype("u1"),
+    5122: np.dtype("<i2"),
     5123: np.dtype("<u2"),
     5125: np.dtype("<u4"),
     5126: np.dtype("<f4"),
 }
-WIDTHS = {"SCALAR": 1, "VEC3": 3}
+WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
 
 class Unusable(Exception):
@@ -70,10 +72,10 @@ class Gltf:
         return placed
 
     def read(self, index: int) -> np.ndarray:
-        """The elements of an accessor, a row each."""
+        """The elements of an accessor, a row each; normalised integers as numbers up to 1."""
         accessor = self.items("accessors")[index]
-        if "sparse" in accessor or "bufferView" not in accessor or accessor.get("normalized"):
-            raise Unusable(f"{self.path}: accessor {index} is sparse, empty or quantised")
+        if "sparse" in accessor or "bufferView" not in accessor:
+            raise Unusable(f"{self.path}: accessor {index} is sparse or empty")
         view = self.items("bufferViews")[accessor["bufferView"]]
         dtype, width = COMPONENTS.get(accessor["componentType"]), WIDTHS.get(accessor["type"])
         if dtype is None or width is None:
@@ -82,7 +84,7 @@ class Gltf:
             )
         size = dtype.itemsize * width
         try:
-            return np.ndarray(
+            rows = np.ndarray(
                 (accessor["count"], width),
                 dtype,
                 self.buffers[view["buffer"]],
@@ -91,6 +93,18 @@ class Gltf:
             )
         except (TypeError, ValueError) as error:
             raise Unusable(f"{self.path}: accessor {index} reaches beyond its buffer") from error
+        if not accessor.get("normalized") or dtype.kind == "f":
+            return rows
+        return np.maximum(rows / np.iinfo(dtype).max, -1.0)
+
+    def image(self, index: int) -> bytes:
+        """The file of an image, PNG or JPEG."""
+        item = self.items("images")[index]
+        if "bufferView" in item:
+            view = self.items("bufferViews")[item["bufferView"]]
+            start = view.get("byteOffset", 0)
+            return bytes(self.buffers[view["buffer"]][start : start + view["byteLength"]])
+        return self._file(item["uri"], f"image {index}")
 
     def _buffer(self, item: dict, blob: bytes | None) -> bytes:
         uri = item.get("uri")
@@ -98,12 +112,15 @@ class Gltf:
             if blob is None:
                 raise Unusable(f"{self.path}: a buffer has neither a file nor a chunk")
             return blob
+        return self._file(uri, "the buffer")
+
+    def _file(self, uri: str, what: str) -> bytes:
         try:
             if uri.startswith("data:"):
                 return base64.b64decode(uri.partition(",")[2], validate=True)
             return (self.path.parent / unquote(uri)).read_bytes()
         except (OSError, binascii.Error) as error:
-            raise Unusable(f"{self.path}: the buffer '{uri[:60]}' cannot be read") from error
+            raise Unusable(f"{self.path}: {what} '{uri[:60]}' cannot be read") from error
 
 
 def split_container(data: bytes) -> tuple[bytes, bytes | None]:

@@ -2,11 +2,20 @@
 
 here                                                Mitsuba
 --------------------------------------------------  -----------------------------------------
-Lambert: metallic 0, KHR_materials_specular 0       `twosided` `diffuse`
-mirror: metallic 1, roughness < 0.03, F₀ = 1        `twosided` `conductor`, material `none`
+Lambert: metallic 0, KHR_materials_specular 0       `diffuse`
+mirror: metallic 1, roughness < 0.03, F₀ = 1        `conductor`, material `none`
+metallic-roughness                                  `plugins.Surface`, our own formulas, or
+                                                    Mitsuba's `principled`, which is another
+                                                    model of the same thing
 glass: transmission 1, roughness < 0.03             `dielectric` (a closed mesh or a thickness)
                                                     or `thindielectric`, in vacuum
+textures, KHR_texture_transform, COLOR_0            `bitmap`, `mesh_attribute`, `plugins.Product`
+normalTexture on flat faces                         `normalmap`, on each side its own
+smooth normals; TANGENT off the coordinates' own    `plugins.Surface`; else noted
+scattering on both sides                            `twosided`
+alphaMode BLEND; MASK                               `mask`; with `plugins.Cutoff`; `volpath`
 emission, W m⁻² sr⁻¹, from the front face           `area`, with the normals of the faces
+KHR_materials_unlit                                 the same, scattering nothing
 KHR_lights_punctual: point, directional             `point`, `directional`
 KHR_lights_punctual: spot, inner ≈ outer angle      `spot`
 camera                                              `perspective`
@@ -26,10 +35,10 @@ from pathlib import Path
 import mitsuba as mi
 import numpy as np
 
+import variant
 from gltf import Gltf, Unusable, normalized
-from materials import bsdf, emitted, rgb
-
-mi.set_variant("scalar_rgb")
+from materials import OURS, rgb
+from meshes import Mesh, meshes, ply
 
 KNOWN_EXTENSIONS = {
     "KHR_lights_punctual",
@@ -37,20 +46,12 @@ KNOWN_EXTENSIONS = {
     "KHR_materials_ior",
     "KHR_materials_specular",
     "KHR_materials_transmission",
+    "KHR_materials_unlit",
     "KHR_materials_volume",
+    "KHR_texture_transform",
 }
 # A spot's edge is hard if it is narrower than this share of the angle.
 HARD_EDGE = 1e-3
-
-
-@dataclass
-class Mesh:
-    """Triangles with a material; rows of three corners, float64, in the file's coordinates."""
-
-    corners: np.ndarray
-    normals: np.ndarray | None
-    bsdf: dict
-    emission: list[float]
 
 
 @dataclass
@@ -61,21 +62,31 @@ class Scene:
     emitters: list[dict] = field(default_factory=list)
     camera: dict = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    # Models that stand for what Mitsuba does not have, see `materials`.
+    models: set[str] = field(default_factory=set)
+    # Of Mitsuba, in which it must be rendered.
+    variant: str = variant.PLAIN
+    # Does anything let a part of the light through, by alpha?
+    alpha: bool = False
     origin: np.ndarray = field(default_factory=lambda: np.zeros(3))
     extent: float = 1.0
 
 
-def load(path: Path) -> Scene:
-    """Reads a scene and maps everything that does not depend on the size of the picture."""
+def load(path: Path, model: str = OURS) -> Scene:
+    """Reads a scene and maps everything that does not depend on the size of the picture.
+
+    `model` says what stands for the materials that Mitsuba does not have.
+    """
+    mi.set_variant(variant.PLAIN)
     try:
-        return _load(Gltf(path))
+        return _load(Gltf(path), model)
     except (KeyError, IndexError, TypeError, AttributeError) as error:
         raise Unusable(
             f"{path}: not a valid glTF file ({type(error).__name__}: {error})"
         ) from error
 
 
-def _load(gltf: Gltf) -> Scene:
+def _load(gltf: Gltf, model: str) -> Scene:
     unknown = set(gltf.items("extensionsUsed")) - KNOWN_EXTENSIONS
     if unknown:
         raise Unusable(f"{gltf.path}: no mapping for the extension {sorted(unknown)[0]}")
@@ -83,8 +94,11 @@ def _load(gltf: Gltf) -> Scene:
     for node, world in placed:
         if "mesh" in node:
             for primitive in gltf.items("meshes")[node["mesh"]]["primitives"]:
-                scene.meshes.append(mesh(gltf, primitive, world, scene.notes))
-    scene.meshes = [item for item in scene.meshes if len(item.corners)]
+                found, models = meshes(gltf, primitive, world, model, scene.notes)
+                scene.meshes += found
+                scene.models |= models
+    scene.alpha = any(item.bsdf["type"] == "mask" for item in scene.meshes)
+    scene.variant = mi.variant()
     if not scene.meshes:
         raise Unusable(f"{gltf.path}: the scene has no triangles")
     corners = np.concatenate([m.corners.reshape(-1, 3) for m in scene.meshes])
@@ -105,13 +119,14 @@ def _load(gltf: Gltf) -> Scene:
         raise Unusable(
             f"{gltf.path}: no perspective camera (the one the program adds is its own affair)"
         )
-    if not scene.emitters and not any(any(m.emission) for m in scene.meshes):
+    if not scene.emitters and not any(item.emitter for item in scene.meshes):
         raise Unusable(f"{gltf.path}: nothing emits (the program's own lamp is its own affair)")
     return scene
 
 
 def to_mitsuba(scene: Scene, folder: Path, size: tuple[int, int], max_edges: int) -> dict:
     """The scene for `mi.load_dict`; meshes are written into `folder`, to last until then."""
+    mi.set_variant(scene.variant)
     film = {
         "type": "hdrfilm",
         "width": size[0],
@@ -122,8 +137,13 @@ def to_mitsuba(scene: Scene, folder: Path, size: tuple[int, int], max_edges: int
     }
     result = {
         "type": "scene",
-        # A roulette that begins beyond the last edge: none.
-        "integrator": {"type": "path", "max_depth": max_edges, "rr_depth": max_edges + 1},
+        "integrator": {
+            # `path` counts what alpha lets through as an edge, and its shadow rays stop there.
+            "type": "volpath" if scene.alpha else "path",
+            "max_depth": max_edges,
+            # A roulette that begins beyond the last edge: none.
+            "rr_depth": max_edges + 1,
+        },
         "sensor": {**scene.camera, "film": film, "sampler": {"type": "independent"}},
     }
     for i, item in enumerate(scene.meshes):
@@ -135,103 +155,15 @@ def to_mitsuba(scene: Scene, folder: Path, size: tuple[int, int], max_edges: int
             "face_normals": item.normals is None,
             "bsdf": item.bsdf,
         }
-        if any(item.emission):
-            shape["emitter"] = {"type": "area", "radiance": rgb(item.emission)}
+        if item.emitter:
+            shape["emitter"] = item.emitter
+        if item.attributes:
+            shape = mi.load_dict(shape)
+            for name, values in item.attributes.items():
+                shape.add_attribute(name, values.shape[1], values.astype(np.float32).ravel())
         result[f"mesh{i}"] = shape
     result.update({f"emitter{i}": emitter for i, emitter in enumerate(scene.emitters)})
     return result
-
-
-def mesh(gltf: Gltf, primitive: dict, world: np.ndarray, notes: list[str]) -> Mesh:
-    """A primitive in world coordinates with its material."""
-    index = primitive.get("material")
-    material = gltf.items("materials")[index] if index is not None else {}
-    name = f"{gltf.path}: material {material.get('name', index)!r}"
-    positions, triangles = triangle_list(gltf, primitive)
-    corners, normals = place(gltf, primitive, world, positions, triangles)
-    emission = emitted(material, name)
-    if normals is not None:
-        notes.append(f"{name}: smooth normals; silhouettes may differ a little, see `place`")
-        if any(emission):
-            raise Unusable(f"{name}: an emitter with smooth normals (Mitsuba emits about those)")
-    scattering = bsdf(material, name, lambda: is_closed(positions, triangles))
-    return Mesh(corners, normals, scattering, emission)
-
-
-def triangle_list(gltf: Gltf, primitive: dict) -> tuple[np.ndarray, np.ndarray]:
-    """A primitive's positions, float64, and the three indices of each triangle."""
-    if primitive.get("mode", 4) != 4:
-        raise Unusable(f"{gltf.path}: a primitive is no list of triangles")
-    positions = gltf.read(primitive["attributes"]["POSITION"]).astype(float)
-    indices = np.arange(len(positions))
-    if "indices" in primitive:
-        indices = gltf.read(primitive["indices"])[:, 0].astype(np.int64)
-    return positions, indices[: len(indices) // 3 * 3].reshape(-1, 3)
-
-
-def place(gltf: Gltf, primitive: dict, world: np.ndarray, positions, triangles):
-    """The triangles' corners in world coordinates, and the normals there if they are not flat.
-
-    A mirroring transform turns triangles around, as glTF demands.  Where a smooth normal and the
-    face disagree on the side of a direction, the program scatters nothing; Mitsuba asks the normal
-    alone.
-    """
-    matrix, offset = world[:3, :3], world[:3, 3]
-    if np.linalg.det(matrix) < 0:
-        triangles = triangles[:, [0, 2, 1]]
-    corners = (positions @ matrix.T + offset)[triangles]
-    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    kept = np.linalg.norm(area, axis=1) > 0
-    if "NORMAL" not in primitive["attributes"]:
-        return corners[kept], None
-    # det · M⁻ᵀ, which exists for flat transforms too; its sign does not matter here.
-    a, b, c = matrix.T
-    cofactor = np.column_stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)])
-    normals = gltf.read(primitive["attributes"]["NORMAL"]).astype(float) @ cofactor.T
-    return corners[kept], shading_normals(normals[triangles[kept]], normalized(area[kept]))
-
-
-def shading_normals(normals: np.ndarray, face: np.ndarray) -> np.ndarray | None:
-    """The corners' normals, turned to the side of the face; None if they are the faces' own."""
-    length = np.linalg.norm(normals, axis=-1, keepdims=True)
-    face = np.broadcast_to(face[:, None], normals.shape)
-    normals = np.where(length > 0, normals / np.where(length > 0, length, 1), face)
-    cos = np.sum(normals * face, axis=-1, keepdims=True)
-    normals = np.where(np.abs(cos) < 1e-4, face, normals * np.sign(cos))
-    return normals if np.abs(normals - face).max(initial=0) > 5e-6 else None
-
-
-def is_closed(positions: np.ndarray, triangles: np.ndarray) -> bool:
-    """Is every edge shared by two triangles that run along it in opposite directions?"""
-    weld = np.unique(positions + 0.0, axis=0, return_inverse=True)[1].reshape(-1)
-    edges = [
-        (t[i], t[(i + 1) % 3])
-        for t in weld[triangles].tolist()
-        if len(set(t)) == 3
-        for i in range(3)
-    ]
-    known = set(edges)
-    return bool(edges) and len(known) == len(edges) and all((b, a) in known for a, b in edges)
-
-
-def ply(item: Mesh, origin: np.ndarray) -> bytes:
-    """A binary PLY file around `origin`; triangles share no vertices."""
-    columns = [(item.corners - origin).reshape(-1, 3)]
-    names = ["x", "y", "z"]
-    if item.normals is not None:
-        columns.append(item.normals.reshape(-1, 3))
-        names += ["nx", "ny", "nz"]
-    count = len(item.corners)
-    faces = np.zeros(count, [("n", "u1"), ("i", "<i4", 3)])
-    faces["n"], faces["i"] = 3, np.arange(3 * count).reshape(-1, 3)
-    header = ["ply", "format binary_little_endian 1.0", f"element vertex {3 * count}"]
-    header += [f"property float {name}" for name in names]
-    header += [f"element face {count}", "property list uchar int vertex_indices", "end_header", ""]
-    return (
-        "\n".join(header).encode()
-        + np.concatenate(columns, axis=1).astype("<f4").tobytes()
-        + faces.tobytes()
-    )
 
 
 def punctual(light: dict, world: np.ndarray, scene: Scene, name: str) -> dict:
@@ -330,9 +262,7 @@ def environment(gltf: Gltf) -> list[dict]:
 def rgb_picture(file: Path) -> np.ndarray:
     """A picture file's linear RGB, [y, x, channel]."""
     bitmap = mi.Bitmap(str(file))
-    return np.array(
-        bitmap.convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False), float
-    )
+    return np.array(bitmap.convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False), float)
 
 
 def interpolated(texels: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:

@@ -1,208 +1,30 @@
 #!/usr/bin/env python3
-"""Writes the scenes of the comparison: one for each kind of light and lens, all Lambert.
+"""Writes the scenes of the comparison: one for each kind of light, of lens and of surface.
 
     python3 tests/mitsuba/scenes.py FOLDER
 
-Each is a stage (floor, back wall, one red and one blue side wall, open to the front and above)
-with a few blocks, about 4 m wide.  Between them they use indices of 8, 16 and 32 bits, nested
-nodes, mirrored and uneven scales, a matrix, and node translations far from zero, so that a slip
-in reading glTF shows too.
+Prints a line for each: the file, how it is compared, `exact` (compare.py) or `approximate`
+(blocks.py, with Mitsuba's own material), and the samples per pixel and seed that it takes.  Here are the lights and the lens, all Lambert.
 """
 
 from __future__ import annotations
 
-import json
-import math
-import struct
 import sys
 from pathlib import Path
 
 import numpy as np
 
-INDEX_TYPES = {5121: "u1", 5123: "<u2", 5125: "<u4"}
-WHITE = [0.75, 0.74, 0.72]
-OCHRE = [0.7, 0.5, 0.25]
-RED = [0.65, 0.12, 0.1]
-BLUE = [0.15, 0.25, 0.65]
-GREEN = [0.2, 0.6, 0.25]
-# Where the cameras stand, what they look at, their vertical field of view.
-EYE, LOOK_AT, YFOV = [0.4, 1.6, 5.2], [0.1, 0.8, 0], 0.68
-
-
-class Glb:
-    """A .glb in the making."""
-
-    def __init__(self):
-        self.lists = {
-            name: []
-            for name in ("nodes", "meshes", "materials", "cameras", "accessors", "bufferViews")
-        }
-        self.roots, self.lights, self.extras, self.data = [], [], {}, b""
-
-    def push(self, name: str, item: dict) -> int:
-        """Appends to a list; the index there."""
-        self.lists[name].append(item)
-        return len(self.lists[name]) - 1
-
-    def node(self, parent: int | None = None, **item) -> int:
-        """Adds a node below `parent`, or at the top."""
-        index = self.push("nodes", item)
-        siblings = (
-            self.roots
-            if parent is None
-            else self.lists["nodes"][parent].setdefault("children", [])
-        )
-        siblings.append(index)
-        return index
-
-    def material(self, albedo: list[float], emission: list[float] | None = None) -> int:
-        """A Lambert material that may emit, W m⁻² sr⁻¹."""
-        extensions = {"KHR_materials_specular": {"specularFactor": 0}}
-        item = {
-            "pbrMetallicRoughness": {"baseColorFactor": [*albedo, 1], "metallicFactor": 0},
-            "extensions": extensions,
-        }
-        if emission:
-            strength = max(emission)
-            item["emissiveFactor"] = [x / strength for x in emission]
-            extensions["KHR_materials_emissive_strength"] = {"emissiveStrength": strength}
-        return self.push("materials", item)
-
-    def mesh(self, quads: list, material: int, index_type: int = 5123) -> int:
-        """Quads whose front is where their corners run counter-clockwise."""
-        corners = np.array(quads, "<f4").reshape(-1, 3)
-        indices = np.array(
-            [4 * i + k for i in range(len(quads)) for k in (0, 1, 2, 0, 2, 3)],
-            INDEX_TYPES[index_type],
-        )
-        limits = {"min": corners.min(axis=0).tolist(), "max": corners.max(axis=0).tolist()}
-        position = self.accessor(corners, 5126, "VEC3", **limits)
-        triangles = self.accessor(indices, index_type, "SCALAR")
-        primitive = {
-            "attributes": {"POSITION": position},
-            "indices": triangles,
-            "material": material,
-        }
-        return self.push("meshes", {"primitives": [primitive]})
-
-    def accessor(self, values: np.ndarray, component: int, kind: str, **more) -> int:
-        """Adds values with their view."""
-        data = values.tobytes()
-        view = self.push(
-            "bufferViews", {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)}
-        )
-        self.data += data + bytes(-len(data) % 4)
-        item = {
-            "bufferView": view,
-            "componentType": component,
-            "count": len(values),
-            "type": kind,
-            **more,
-        }
-        return self.push("accessors", item)
-
-    def light(self, light: dict, parent: int | None = None, **placing) -> int:
-        """A light of KHR_lights_punctual on a node."""
-        self.lights.append(light)
-        extension = {"KHR_lights_punctual": {"light": len(self.lights) - 1}}
-        return self.node(parent, extensions=extension, **placing)
-
-    def camera(self, position, target, yfov: float, lens: dict | None = None) -> int:
-        """A camera that looks from one point to another, +Y up; its node has a matrix."""
-        item = {
-            "type": "perspective",
-            "perspective": {"yfov": yfov, "znear": 0.01},
-            **({"extras": lens} if lens else {}),
-        }
-        return self.node(camera=self.push("cameras", item), matrix=looking(position, target))
-
-    def write(self, path: Path) -> None:
-        """Writes the file."""
-        root = {
-            "asset": {"version": "2.0"},
-            "scene": 0,
-            "scenes": [{"nodes": self.roots, "extras": self.extras}],
-        }
-        root.update({name: items for name, items in self.lists.items() if items})
-        root["buffers"] = [{"byteLength": len(self.data)}]
-        used = {name for material in self.lists["materials"] for name in material["extensions"]}
-        if self.lights:
-            root["extensions"] = {"KHR_lights_punctual": {"lights": self.lights}}
-            used.add("KHR_lights_punctual")
-        root["extensionsUsed"] = sorted(used)
-        text = json.dumps(root).encode()
-        text += b" " * (-len(text) % 4)
-        chunks = [(b"JSON", text), (b"BIN\0", self.data)]
-        body = b"".join(struct.pack("<I4s", len(data), kind) + data for kind, data in chunks)
-        path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body)
-
-
-def looking(position, target) -> list[float]:
-    """A node's matrix, column by column, whose −Z points from one point to another."""
-    position, target = np.array(position, float), np.array(target, float)
-    back = (position - target) / np.linalg.norm(position - target)
-    right = np.cross([0, 1, 0] if abs(back[1]) < 0.99 else [0, 0, -1], back)
-    right /= np.linalg.norm(right)
-    matrix = np.eye(4)
-    matrix[:3] = np.column_stack([right, np.cross(back, right), back, position])
-    return matrix.T.reshape(-1).tolist()
-
-
-def turn(degrees: float) -> list[float]:
-    """A rotation about +Y."""
-    half = math.radians(degrees) / 2
-    return [0, math.sin(half), 0, math.cos(half)]
-
-
-def cube() -> list:
-    """The cube from −1 to 1, front outwards."""
-    quads = []
-    for axis in range(3):
-        for sign in (1, -1):
-            n, u, v = np.zeros(3), np.zeros(3), np.zeros(3)
-            n[axis], u[(axis + 1) % 3], v[(axis + 2) % 3] = sign, sign, 1
-            quads.append([n - u - v, n + u - v, n + u + v, n - u + v])
-    return quads
-
-
-def stage(back_wall: float = 2.2) -> Glb:
-    """The stage with three blocks, without camera and light."""
-    glb = Glb()
-    colors = {"white": WHITE, "ochre": OCHRE, "red": RED, "blue": BLUE, "green": GREEN}
-    paint = {name: glb.material(color) for name, color in colors.items()}
-    h, low = back_wall, 1.2
-    walls = {
-        "white": [[-2, 0, 2], [2, 0, 2], [2, 0, -2], [-2, 0, -2]],
-        "ochre": [[-2, 0, -2], [2, 0, -2], [2, h, -2], [-2, h, -2]],
-        "red": [[-2, 0, 2], [-2, 0, -2], [-2, low, -2], [-2, low, 2]],
-        "blue": [[2, 0, -2], [2, 0, 2], [2, low, 2], [2, low, -2]],
-    }
-    for name, quad in walls.items():
-        glb.node(mesh=glb.mesh([quad], paint[name], 5121))
-    # One cube's mesh, placed thrice: turned and stretched, mirrored, and as the child of a child.
-    white, green = glb.mesh(cube(), paint["white"], 5125), glb.mesh(cube(), paint["green"], 5123)
-    glb.node(mesh=white, translation=[-0.8, 0.75, -0.6], rotation=turn(25), scale=[0.4, 0.7, 0.35])
-    glb.node(
-        mesh=green, translation=[0.9, 0.4, 0.1], rotation=turn(-20), scale=[-0.35, 0.35, 0.45]
-    )
-    outer = glb.node(translation=[1000.1, 0, 3], rotation=turn(90))
-    inner = glb.node(outer, translation=[2.6, 0.2, -999.9], scale=[0.5, 0.5, 0.5])
-    glb.node(inner, mesh=white, rotation=turn(10), scale=[0.3, 0.3, 0.5])
-    return glb
+import surfaces
+from glb import cube, looking, turn, write_hdr
+from stage import EYE, GREEN, LOOK_AT, RED, WHITE, YFOV, hang_lamp, stage
 
 
 def area(folder: Path) -> None:
     """A lamp overhead that shines downwards only, in a mirrored node; a small glowing block."""
     glb = stage()
-    lamp = glb.mesh(
-        [[[-0.5, 0, 0.4], [0.5, 0, 0.4], [0.5, 0, -0.4], [-0.5, 0, -0.4]]],
-        glb.material(WHITE, [9, 8, 6]),
-    )
-    # The quad faces up; mirrored in y it faces down.
-    glb.node(mesh=lamp, translation=[0.2, 1.75, -0.3], scale=[1, -1, 1])
+    hang_lamp(glb, [9, 8, 6])
     glow = glb.mesh(cube(), glb.material(GREEN, [0.5, 2, 4]))
     glb.node(mesh=glow, translation=[-0.3, 0.3, 0.9], rotation=turn(40), scale=[0.15, 0.15, 0.15])
-    glb.camera(EYE, LOOK_AT, YFOV)
     glb.write(folder / "area.glb")
 
 
@@ -284,17 +106,13 @@ def sky(phi: np.ndarray, theta: np.ndarray) -> np.ndarray:
     return 0.8 * sides + 6 * lobe[..., None] * np.array([1, 0.85, 0.6])
 
 
-def write_hdr(path: Path, picture: np.ndarray) -> None:
-    """Writes Radiance's RGBE, not compressed: (mantissa / 256) · 2^(exponent − 128)."""
-    exponent = np.frexp(picture.max(axis=-1))[1]
-    mantissa = np.clip(np.floor(picture * np.exp2(8 - exponent)[..., None]), 0, 255)
-    texels = np.concatenate([mantissa, exponent[..., None] + 128], axis=-1).astype(np.uint8)
-    height, width = picture.shape[:2]
-    header = f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n"
-    path.write_bytes(header.encode() + texels.tobytes())
-
-
-SCENES = [area, lens, point, spot, directional, constant, environment]
+LIGHTS = [area, lens, point, spot, directional, constant, environment]
+SCENES = [*LIGHTS, *surfaces.SCENES]
+COMPARISONS = [
+    *((make, "exact", 64) for make in LIGHTS),
+    *((make, "exact", 32) for make in surfaces.SCENES),
+    (surfaces.rough_metal, "approximate", 64),
+]
 
 if __name__ == "__main__":
     if len(sys.argv) != 2:
@@ -304,4 +122,5 @@ if __name__ == "__main__":
     target.mkdir(parents=True, exist_ok=True)
     for make in SCENES:
         make(target)
-    print("\n".join(f"{make.__name__}.glb" for make in SCENES))
+    for make, mode, spp in COMPARISONS:
+        print(f"{make.__name__}.glb {mode} {spp}")

@@ -8,6 +8,7 @@ import unittest
 
 import numpy as np
 
+import blocks
 from agreement import MEAN_LIMIT, compare, judge, normal_from_student, student_from_normal
 
 
@@ -65,6 +66,22 @@ class Statistics(unittest.TestCase):
         flat = np.ones((16, 16, 16, 3))
         self.assertEqual(judge(flat, flat * (1 + 1e-6))["verdict"], "AGREE")
         self.assertEqual(judge(flat, flat * 1.001)["verdict"], "FAILED")
+
+    def test_blocks(self):
+        """95 % within 10 %: equal, a little off, too far off, three and four of 64 far off."""
+        rng = np.random.default_rng(5)
+        ours, theirs = (1 + 0.1 * rng.normal(size=(2, 256, 256, 3)) for _ in range(2))
+        for factor, agree in ((1, True), (1.08, True), (0.92, True), (1.12, False), (0.88, False)):
+            self.assertEqual(blocks.judge(ours * factor, theirs)["agree"], agree)
+        for count, agree in ((3, True), (4, False)):
+            spot = ours.copy()
+            spot[:, -32:, -32 * count :] *= 1.3
+            report = blocks.judge(spot, theirs)
+            self.assertEqual((report["agree"], report["worst_pixel"][1]), (agree, 224))
+        spot = ours.copy()
+        spot[0, 5, 5, 1] = np.nan
+        self.assertEqual(blocks.judge(spot, theirs)["agree"], False)
+        self.assertEqual(blocks.judge(0 * ours, 0 * theirs)["agree"], True)
 
 
 if __name__ == "__main__":
