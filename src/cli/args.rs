@@ -89,6 +89,9 @@ pub struct EstimatorArgs {
     /// Size of the full picture
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true, default_value = "512x512")]
     pub size: [u32; 2],
+    /// Scene of several in one file, by its name or else its number [default: the file's]
+    #[arg(long = "scene", value_name = "NAME")]
+    pub scene_name: Option<String>,
     /// Camera, by its name in the file [default: the first]
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,

@@ -18,7 +18,11 @@ pub struct Prepared {
 
 /// Opens the scene, reports the loader's notes, and puts the job together.
 pub fn prepare(args: &EstimatorArgs, hide: bool) -> Result<Prepared, Failure> {
-    let overrides = Overrides { environment: args.environment.clone(), environment_rotation: args.environment_rotation };
+    let overrides = Overrides {
+        environment: args.environment.clone(),
+        environment_rotation: args.environment_rotation,
+        scene: args.scene_name.clone(),
+    };
     let scene = open(&args.scene, &overrides)?;
     let camera = camera(&scene, args)?;
     let lens = lens(scene.cameras[camera].lens, args);

@@ -151,6 +151,10 @@ pub struct Parts {
     pub environment: Option<Environment>,
     /// What is to be told about how these parts came to be.
     pub notes: Vec<String>,
+    /// Names of all scenes in the file.
+    pub scene_names: Vec<String>,
+    /// Which of them this is.
+    pub scene: Option<usize>,
 }
 
 /// An axis-aligned box in the file's coordinates.
@@ -256,6 +260,8 @@ impl Scene {
             bvh,
             cameras,
             notes: parts.notes,
+            scene_names: parts.scene_names,
+            scene: parts.scene,
             features: SceneFeatures::default(),
         };
         scene.collect_lights(others, parts.environment);

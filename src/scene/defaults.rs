@@ -23,6 +23,8 @@ pub struct Overrides {
     pub environment: Option<EnvironmentSource>,
     /// Degrees (finite) by which the environment is turned about +Y, counter-clockwise seen from above, instead of the file's.
     pub environment_rotation: Option<f64>,
+    /// Which of the file's scenes is shown, by its name or else its number, instead of its default.
+    pub scene: Option<String>,
 }
 
 impl Parts {

@@ -6,13 +6,16 @@
 mod accessor;
 mod container;
 mod extras;
+mod images;
 mod lights;
 mod material;
 mod mesh;
 mod nodes;
+mod shape;
+mod textures;
 
 use super::{Overrides, Parts, Scene, SceneError};
-use container::Document;
+use container::{Document, listed};
 use material::Materials;
 use std::path::Path;
 
@@ -33,7 +36,7 @@ const KNOWN_EXTENSIONS: [&str; 9] = [
 ///
 /// # Errors
 /// If the file or another that it or the user names cannot be read, anything it refers to does not exist or does not fit, it
-/// requires an extension we do not know, there is nothing to see, or no environment where one is to be turned.
+/// requires an extension we do not know, it has no scene of the wanted name, there is nothing to see, or no environment where one is to be turned.
 pub fn load(path: &Path, overrides: &Overrides) -> Result<Scene, SceneError> {
     let bytes = super::read::whole(path).map_err(|e| match e.kind() {
         std::io::ErrorKind::NotFound => SceneError::file(path, "there is no such file; check the path"),
@@ -53,21 +56,34 @@ pub fn load_bytes(name: &str, bytes: &[u8], overrides: &Overrides) -> Result<Sce
 
 /// Reads a file; those it names are looked for in `folder`.
 fn read(name: &str, (file, folder): (&Path, Option<&Path>), bytes: &[u8], overrides: &Overrides) -> Result<Scene, SceneError> {
-    let document = Document::parse(file, bytes, folder)?;
+    let document = Document::parse(file, bytes, folder, overrides.scene.as_deref())?;
     if let Some(extension) = document.root.extensions_required.iter().find(|e| !KNOWN_EXTENSIONS.contains(&e.as_str())) {
         return Err(SceneError::file(file, format!("it requires the extension {extension}, which cannot be read; export it without")));
     }
     let placed = nodes::placed(&document)?;
-    let mut notes = Vec::new();
+    let mut notes: Vec<String> = other_scenes(&document, overrides).into_iter().collect();
     let mut materials = Materials::new(&document);
     let cameras = nodes::cameras(&document, &placed, &mut notes)?;
     let lights = lights::lights(&document, &placed, &mut notes)?;
     let environment = extras::environment(&document, overrides, &mut notes)?;
     let triangles = mesh::triangles(&document, &placed, &mut materials, &mut notes)?;
-    let list = std::mem::take(&mut materials.list);
-    notes.extend(materials.notes());
-    notes.extend(ignored_parts(&document));
-    let parts = Parts { name: name.to_owned(), triangles, materials: list, cameras, lights, environment, notes, ..Parts::default() };
+    let materials = materials.finish(&mut notes)?;
+    let ignored = ignored_parts(&document, &notes);
+    notes.extend(ignored);
+    let parts = Parts {
+        name: name.to_owned(),
+        triangles: triangles.list,
+        attributes: triangles.attributes,
+        materials: materials.list,
+        textures: materials.textures,
+        images: materials.images,
+        cameras,
+        lights,
+        environment,
+        notes,
+        scene_names: document.scene_names(),
+        scene: document.scene,
+    };
     let parts = parts.with_default_camera().with_default_environment(overrides.environment_rotation.unwrap_or(0.0));
     if overrides.environment_rotation.is_some() && parts.environment.is_none() {
         return Err(SceneError::file(file, "it has no environment that could be turned; give it one as well"));
@@ -76,8 +92,15 @@ fn read(name: &str, (file, folder): (&Path, Option<&Path>), bytes: &[u8], overri
     Scene::assemble(parts).map_err(|e| SceneError { file: file.display().to_string(), ..e })
 }
 
-/// A sentence for each kind of thing in the file that is not shown.
-fn ignored_parts(document: &Document) -> Vec<String> {
+/// Which scene of several is shown, if nobody has chosen.
+fn other_scenes(document: &Document, overrides: &Overrides) -> Option<String> {
+    let names = document.scene_names();
+    let shown = names.get(document.scene?).filter(|_| names.len() > 1 && overrides.scene.is_none())?;
+    Some(format!("The file has {} scenes ({}); '{shown}' is shown.", names.len(), listed(&names)))
+}
+
+/// A sentence for each kind of thing in the file that is not shown and that the notes do not name yet.
+fn ignored_parts(document: &Document, notes: &[String]) -> Vec<String> {
     let root = &document.root;
     let morphs = root.meshes.iter().flat_map(|mesh| &mesh.primitives).filter(|p| p.targets.as_ref().is_some_and(|t| !t.is_empty()));
     let counts = [
@@ -86,6 +109,7 @@ fn ignored_parts(document: &Document) -> Vec<String> {
         ("morph targets, the primitives keep their rest shape", morphs.count()),
     ];
     let counts = counts.into_iter().filter(|(_, n)| *n > 0).map(|(what, n)| format!("Ignored: {what} ({n})."));
-    let unknown = root.extensions_used.iter().filter(|e| !KNOWN_EXTENSIONS.contains(&e.as_str()));
+    let told = |extension: &str| notes.iter().any(|note| note.contains(extension));
+    let unknown = root.extensions_used.iter().filter(|e| !KNOWN_EXTENSIONS.contains(&e.as_str()) && !told(e));
     counts.chain(unknown.map(|extension| format!("Ignored: the extension {extension}."))).collect()
 }

@@ -87,6 +87,10 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// What the loader did that the file did not say: defaults, replaced materials, ignored parts. One sentence each.
     pub notes: Vec<String>,
+    /// Names of all scenes in the file; a number where one has none.
+    pub scene_names: Vec<String>,
+    /// Which of them this is; `None` if the file has no scenes.
+    pub scene: Option<usize>,
     /// What this scene needs of a renderer.
     pub features: SceneFeatures,
 }

@@ -139,6 +139,11 @@ impl Textures {
         Self { list: uses.iter().map(texture).collect(), texels }
     }
 
+    /// Bytes that the texels take.
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.texels.as_slice())
+    }
+
     /// The linear value at texture coordinates, alpha last.
     #[inline]
     pub fn value(&self, texture: u32, uv: Vec2) -> Vec4 {

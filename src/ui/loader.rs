@@ -61,6 +61,7 @@ fn read(opening: &Opening) -> Result<Scene, SceneError> {
     let overrides = Overrides {
         environment: environment.map(|chosen| chosen.source.clone()),
         environment_rotation: environment.map(|chosen| chosen.rotation),
+        scene: None,
     };
     builtin::open_with(&opening.scene, &overrides)
 }

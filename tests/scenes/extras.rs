@@ -154,7 +154,7 @@ fn the_users_environment_replaces_the_files() {
     std::fs::write(&path, two_sides(5.0, 7.0)).unwrap();
     let mine = Some(EnvironmentSource::File(path.clone()));
     let open = |extras: Value, environment: &Option<EnvironmentSource>, environment_rotation: Option<f64>| {
-        let overrides = Overrides { environment: environment.clone(), environment_rotation };
+        let overrides = Overrides { environment: environment.clone(), environment_rotation, scene: None };
         gltf::load_bytes("test.glb", &with_sky(extras).bytes(), &overrides)
     };
     // Whatever the file says, even if that could not be read, and with its own rotation only.

@@ -1,12 +1,13 @@
 //! Reading accessors, every index and every byte checked: an error says which accessor and what is wrong with it.
 
 use super::container::Document;
-use crate::math::Vec3;
 use ::gltf::json::accessor::{Accessor, ComponentType, Type};
 use ::gltf::json::validation::Checked;
+use bytemuck::Zeroable;
+use std::ops::Range;
 
 /// More elements than this in an accessor without bytes (all zeros, or sparse) is a slip or an attack.
-const MAX_IMPLICIT: u64 = 1 << 24;
+const MAX_IMPLICIT: u64 = 1 << 22;
 
 /// The elements of an accessor: where each begins, and how to read a component.
 struct Elements<'a> {
@@ -34,24 +35,50 @@ impl Elements<'_> {
 }
 
 impl Document<'_> {
-    /// Positions or normals: three finite numbers per element, f32 or quantised.
-    pub fn read_vec3(&self, index: usize) -> Result<Vec<Vec3>, String> {
-        let vectors =
-            self.read(index, Type::Vec3, |e, i| Vec3::new(e.number(i, 0) as f32, e.number(i, 1) as f32, e.number(i, 2) as f32))?;
-        match vectors.iter().position(|v| !v.is_finite()) {
-            Some(bad) => Err(format!("accessor {index}, element {bad} is not a finite number; repair the mesh and export it again")),
+    /// How many elements an accessor declares.
+    pub fn count(&self, index: usize) -> Result<usize, String> {
+        Ok(self.accessor(index)?.count.0.try_into().unwrap_or(usize::MAX))
+    }
+
+    /// The elements `range` of positions, normals, texture coordinates …: `N` finite numbers each, f32 or quantised.
+    pub fn vectors<const N: usize>(&self, index: usize, range: &Range<usize>) -> Result<Vec<[f32; N]>, String> {
+        self.finite(index, range, false)
+    }
+
+    /// The elements `range` of colours: three or four finite numbers, integers always as parts of their largest; alpha is 1
+    /// where it is missing.
+    pub fn colors(&self, index: usize, range: &Range<usize>) -> Result<Vec<[f32; 4]>, String> {
+        if self.accessor(index)?.type_ == Checked::Valid(Type::Vec3) {
+            let opaque = |[r, g, b]: [f32; 3]| [r, g, b, 1.0];
+            return Ok(self.finite(index, range, true)?.into_iter().map(opaque).collect());
+        }
+        self.finite(index, range, true)
+    }
+
+    fn finite<const N: usize>(&self, index: usize, range: &Range<usize>, parts: bool) -> Result<Vec<[f32; N]>, String> {
+        let wanted = match N {
+            2 => Type::Vec2,
+            3 => Type::Vec3,
+            _ => Type::Vec4,
+        };
+        let vectors = self.read(index, wanted, range, parts, |e, i| std::array::from_fn(|c| e.number(i, c) as f32))?;
+        match vectors.iter().position(|v: &[f32; N]| !v.iter().all(|x| x.is_finite())) {
+            Some(bad) => {
+                let bad = range.start + bad;
+                Err(format!("accessor {index}, element {bad} is not a finite number; repair the mesh and export it again"))
+            }
             None => Ok(vectors),
         }
     }
 
     /// Vertex indices: unsigned integers of any size.
-    pub fn read_indices(&self, index: usize) -> Result<Vec<u32>, String> {
+    pub fn indices(&self, index: usize) -> Result<Vec<u32>, String> {
         let accessor = self.accessor(index)?;
         match component(accessor, index)? {
             ComponentType::U8 | ComponentType::U16 | ComponentType::U32 if !accessor.normalized => {}
             _ => return Err(format!("accessor {index} holds indices that are not plain unsigned integers; export it again")),
         }
-        self.read(index, Type::Scalar, |e, i| e.number(i, 0) as u32)
+        self.read(index, Type::Scalar, &(0..self.count(index)?), false, |e, i| e.number(i, 0) as u32)
     }
 
     fn accessor(&self, index: usize) -> Result<&Accessor, String> {
@@ -59,25 +86,33 @@ impl Document<'_> {
         self.root.accessors.get(index).ok_or_else(|| format!("accessor {index} does not exist, there are {count}; export the file again"))
     }
 
-    /// All elements of an accessor of type `wanted`, the sparse ones replaced.
-    fn read<T: Copy + Default>(&self, index: usize, wanted: Type, get: impl Fn(&Elements, usize) -> T) -> Result<Vec<T>, String> {
+    /// The elements `range` (not beyond the count) of an accessor of type `wanted`, the sparse ones replaced; `parts` takes
+    /// integers as parts of their largest even if the accessor does not say so.
+    fn read<T: Copy + Zeroable>(
+        &self,
+        index: usize,
+        wanted: Type,
+        range: &Range<usize>,
+        parts: bool,
+        get: impl Fn(&Elements, usize) -> T,
+    ) -> Result<Vec<T>, String> {
         let accessor = self.accessor(index)?;
         if accessor.type_ != Checked::Valid(wanted) {
             return Err(format!("accessor {index} is not of type {wanted:?}; export the file again"));
         }
-        let (component, normalized) = (component(accessor, index)?, accessor.normalized);
+        let (component, normalized) = (component(accessor, index)?, accessor.normalized || parts);
         let size = component.size() * wanted.multiplicity();
         let what = format!("accessor {index}");
         let mut values = match accessor.buffer_view {
             Some(view) => {
                 let (bytes, stride) = self.span(&what, view.value(), accessor.byte_offset.unwrap_or_default().0, accessor.count.0, size)?;
                 let elements = Elements { bytes, stride, component, normalized };
-                (0..accessor.count.0 as usize).map(|i| get(&elements, i)).collect()
+                range.clone().map(|i| get(&elements, i)).collect()
             }
             None if accessor.count.0 > MAX_IMPLICIT => {
                 return Err(format!("{what} has {} elements but no data; export the file again", accessor.count.0));
             }
-            None => vec![T::default(); accessor.count.0 as usize],
+            None => vec![T::zeroed(); range.len()],
         };
         if let Some(sparse) = &accessor.sparse {
             let Checked::Valid(index_type) = sparse.indices.component_type else {
@@ -90,13 +125,15 @@ impl Document<'_> {
             let replacements = Elements { bytes, stride, component, normalized };
             for i in 0..n as usize {
                 let target = targets.number(i, 0) as usize;
-                *values
-                    .get_mut(target)
-                    .ok_or_else(|| format!("{what} replaces element {target} of {}; export the file again", accessor.count.0))? =
-                    get(&replacements, i);
+                if target as u64 >= accessor.count.0 {
+                    return Err(format!("{what} replaces element {target} of {}; export the file again", accessor.count.0));
+                }
+                if let Some(value) = target.checked_sub(range.start).and_then(|place| values.get_mut(place)) {
+                    *value = get(&replacements, i);
+                }
             }
         }
-        if values.is_empty() { Err(format!("{what} is empty; export the file again")) } else { Ok(values) }
+        if accessor.count.0 == 0 { Err(format!("{what} is empty; export the file again")) } else { Ok(values) }
     }
 
     /// The bytes of `count` elements of `size` bytes in a buffer view, from `offset` in it, and their distance.

@@ -19,24 +19,54 @@ pub struct Document<'a> {
     pub root: Root,
     /// The bytes of each buffer, at least as many as it declares.
     pub buffers: Vec<Cow<'a, [u8]>>,
+    /// Which scene of the file is shown; `None` if it has none.
+    pub scene: Option<usize>,
     /// Where other files are looked for; `None`: nowhere.
     folder: Option<&'a Path>,
 }
 
 impl<'a> Document<'a> {
-    /// Parses `bytes`; other files are looked for in `folder`, if there is one.
-    pub fn parse(file: &'a Path, bytes: &'a [u8], folder: Option<&'a Path>) -> Result<Self, SceneError> {
+    /// Parses `bytes`; other files are looked for in `folder`, if there is one. `scene` names the scene to be shown.
+    pub fn parse(file: &'a Path, bytes: &'a [u8], folder: Option<&'a Path>, scene: Option<&str>) -> Result<Self, SceneError> {
         let (text, blob) = split_container(bytes).map_err(|reason| SceneError::file(file, reason))?;
-        let root: Root = json::deserialize::from_slice(text).map_err(|e| SceneError::file(file, not_gltf(text, &e.to_string())))?;
+        let root = root(text).map_err(|e| SceneError::file(file, not_gltf(text, &e)))?;
         if !root.asset.version.starts_with("2.") {
             return Err(SceneError::file(file, format!("glTF version {} cannot be read; export it as glTF 2.0", root.asset.version)));
         }
-        let mut document = Self { file, root, buffers: Vec::new(), folder };
+        let mut document = Self { file, root, buffers: Vec::new(), scene: None, folder };
+        document.scene = document.chosen(scene)?;
         for index in 0..document.root.buffers.len() {
             let bytes = document.buffer(index, blob).map_err(|reason| document.error(format!("buffer {index}"), reason))?;
             document.buffers.push(bytes);
         }
         Ok(document)
+    }
+
+    /// The names of the scenes in the file; their numbers where they have none.
+    pub fn scene_names(&self) -> Vec<String> {
+        self.root.scenes.iter().enumerate().map(|(i, scene)| scene.name.clone().unwrap_or_else(|| i.to_string())).collect()
+    }
+
+    /// The scene to be shown: the wanted one, by name or else by number; otherwise the file's default, or its first.
+    fn chosen(&self, wanted: Option<&str>) -> Result<Option<usize>, SceneError> {
+        let count = self.root.scenes.len();
+        let Some(wanted) = wanted else {
+            return match self.root.scene.map(|scene| scene.value()) {
+                None => Ok((count > 0).then_some(0)),
+                Some(index) if index < count => Ok(Some(index)),
+                Some(index) => Err(self.error(
+                    format!("scene {index}"),
+                    format!("it is the default, but there are only {count} scenes; export the file again"),
+                )),
+            };
+        };
+        let named = self.root.scenes.iter().position(|scene| scene.name.as_deref() == Some(wanted));
+        let found = named.or_else(|| wanted.parse().ok().filter(|index| *index < count));
+        found.map(Some).ok_or_else(|| {
+            let names: Vec<_> = self.scene_names().iter().map(|name| format!("'{name}'")).collect();
+            let names = if names.is_empty() { "no scene of its own".into() } else { names.join(", ") };
+            SceneError::file(self.file, format!("the scene '{wanted}' is not in it; it has {names}"))
+        })
     }
 
     /// An error about one element of this file.
@@ -119,6 +149,22 @@ fn split_container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
     Ok((text, blob.filter(|(kind, _)| *kind == u32::from_le_bytes(*b"BIN\0")).map(|(_, data)| data)))
 }
 
+/// The document. A scene without nodes may leave out the list of them, which the parser does not know.
+fn root(text: &[u8]) -> Result<Root, String> {
+    let error = match json::deserialize::from_slice(text) {
+        Ok(root) => return Ok(root),
+        Err(error) => error.to_string(),
+    };
+    let mended = || {
+        let mut value: Value = serde_json::from_slice(text).ok()?;
+        for scene in value.get_mut("scenes")?.as_array_mut()? {
+            scene.as_object_mut()?.entry("nodes").or_insert_with(|| Value::Array(Vec::new()));
+        }
+        json::deserialize::from_slice(&serde_json::to_vec(&value).ok()?).ok()
+    };
+    mended().ok_or(error)
+}
+
 /// Says why `text` is not a glTF document.
 fn not_gltf(text: &[u8], parser: &str) -> String {
     if text.iter().find(|b| !b.is_ascii_whitespace()) == Some(&b'{') {
@@ -158,6 +204,13 @@ fn decoded(uri: &str) -> PathBuf {
         }
     }
     String::from_utf8(out).map_or_else(|_| uri.into(), PathBuf::from)
+}
+
+/// "'a', 'b'": the first six of some names in quotes, and how many more there are.
+pub fn listed(names: &[String]) -> String {
+    const MOST: usize = 6;
+    let first = names.iter().take(MOST).map(|name| format!("'{name}'")).collect::<Vec<_>>().join(", ");
+    if names.len() > MOST { format!("{first} and {} more", names.len() - MOST) } else { first }
 }
 
 /// "mesh 2 'Lamp'".

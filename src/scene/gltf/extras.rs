@@ -38,8 +38,7 @@ pub fn environment(document: &Document, overrides: &Overrides, notes: &mut Vec<S
     if let Some(source) = &overrides.environment {
         return source.open(overrides.environment_rotation.unwrap_or(0.0), notes).map(Some);
     }
-    let index = document.root.scene.map_or(0, |scene| scene.value());
-    let Some(scene) = document.root.scenes.get(index) else { return Ok(None) };
+    let Some((index, scene)) = document.scene.and_then(|index| Some((index, document.root.scenes.get(index)?))) else { return Ok(None) };
     let fail = |reason: String| document.error(label("scene", index, scene.name.as_deref()), reason);
     let members = Document::members(&scene.extras).map_err(fail)?;
     let Some(value) = members.get("environment") else { return Ok(None) };

@@ -1,53 +1,95 @@
-//! From glTF materials to the models we render. What has no model becomes grey Lambert, and the notes say so.
+//! From glTF materials to the models we render; what of a material is not modelled is named in the notes.
 //!
-//! | glTF | model |
+//! | glTF | kind |
 //! |---|---|
+//! | `KHR_materials_unlit` | unlit: emits its base colour, does not scatter |
+//! | transmission 1, metallic 0, roughness < 0.03 | smooth dielectric, solid if the mesh is closed or has a thickness, else thin |
 //! | metallic 0, `KHR_materials_specular` factor 0 | Lambert, albedo = base colour |
-//! | metallic 1, roughness < 0.03 | mirror, F₀ = base colour |
-//! | metallic 0, transmission 1, roughness < 0.03 | smooth dielectric, solid if the mesh is closed or has a thickness, else thin |
-//! | anything else | Lambert, albedo 0.5 |
+//! | metallic 1 without a texture of it | mirror where roughness < 0.03, else rough metal, F₀ = base colour |
+//! | anything else | coat: F₀ = specular · min(1, ((ior − 1)/(ior + 1))² · specular colour), F₉₀ = specular; ior 0: F₀ of 1 |
 //!
 //! Emission = emissive factor × `KHR_materials_emissive_strength`, W m⁻² sr⁻¹, from the front face only unless `doubleSided`.
+//! Alpha counts for MASK and BLEND, and only where it can be below 1 (MASK: below the cutoff).
 
-use super::super::environment::MAX_RADIANCE;
-use super::super::{Material, SceneError};
-use super::container::{Document, label};
+mod factors;
+
+use super::super::material::{TRANSPARENT, UNLIT, VARIES};
+use super::super::texture::{Image, TextureUse};
+use super::super::{COAT, CONDUCTOR, LAMBERT, MIRROR, Material, NONE, SceneError};
+use super::container::{Document, label, listed};
+use super::images;
+use super::textures::{Reference, TextureTable};
 use crate::math::Vec3;
 use ::gltf::json::material::{AlphaMode, Material as Json};
+use ::gltf::json::texture::Info;
 use ::gltf::json::validation::Checked;
+use factors::Factors;
 use std::collections::{BTreeMap, HashMap};
 
 /// Below this roughness a surface is a Dirac.
 const SMOOTH: f32 = 0.03;
-/// Albedo of what has no model.
-const GREY: Vec3 = Vec3::splat(0.5);
 
-/// What a glTF material means, before the mesh decides between solid and thin.
-enum Model {
-    Lambert(Vec3),
-    Mirror(Vec3),
-    Dielectric {
-        tint: Vec3,
-        ior: f32,
-    },
-    /// No model: why.
-    Unknown(String),
+/// A material in the making.
+struct Draft {
+    name: String,
+    material: Material,
+    /// Whether alpha counts, and the cutoff if it masks.
+    alpha: Option<Option<f32>>,
+    /// The least alpha among the colours of its vertices.
+    vertex_alpha: f32,
+}
+
+/// What a material wants of the vertices.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Needs {
+    /// Sets of texture coordinates.
+    pub sets: [bool; 2],
+    /// Tangents.
+    pub tangents: bool,
+    /// Alpha of colours.
+    pub alpha: bool,
+}
+
+/// All materials with what belongs to them.
+pub struct Finished {
+    pub list: Vec<(String, Material)>,
+    pub textures: Vec<TextureUse>,
+    pub images: Vec<Image>,
 }
 
 /// The materials in use, made when they are first asked for.
 pub struct Materials<'a> {
     document: &'a Document<'a>,
-    /// The materials with their names.
-    pub list: Vec<(String, Material)>,
+    drafts: Vec<Draft>,
+    textures: TextureTable<'a>,
     index_of: HashMap<(Option<usize>, bool), u32>,
-    /// Names of materials by what is to be said of them.
-    remarks: BTreeMap<String, Vec<String>>,
+    remarks: Remarks,
+}
+
+/// Names of materials by what is to be said of them.
+#[derive(Default)]
+struct Remarks(BTreeMap<String, Vec<String>>);
+
+impl Remarks {
+    fn add(&mut self, remark: impl Into<String>, name: &str) {
+        self.0.entry(remark.into()).or_default().push(name.to_owned());
+    }
+
+    /// One sentence for everything that is to be said of some materials.
+    fn sentences(self) -> impl Iterator<Item = String> {
+        self.0.into_iter().map(|(remark, mut names)| {
+            names.sort();
+            names.dedup();
+            format!("{remark}: {}.", listed(&names))
+        })
+    }
 }
 
 impl<'a> Materials<'a> {
     /// None yet.
     pub fn new(document: &'a Document<'a>) -> Self {
-        Self { document, list: Vec::new(), index_of: HashMap::new(), remarks: BTreeMap::new() }
+        let textures = TextureTable::new(document);
+        Self { document, drafts: Vec::new(), textures, index_of: HashMap::new(), remarks: Remarks::default() }
     }
 
     /// The index of a glTF material on a mesh; `closed` tells whether that mesh encloses a volume (asked of glass only).
@@ -61,154 +103,164 @@ impl<'a> Materials<'a> {
                 None => return Err(self.document.error(format!("material {i}"), "it is used but does not exist; export the file again")),
             },
         };
-        let solid = transmission(json) > 0.0 && (thickness(json) > 0.0 || closed());
+        let solid = factors::transmission(json) > 0.0 && (factors::thickness(json) > 0.0 || closed());
         if let Some(&index) = self.index_of.get(&(material, solid)) {
             return Ok(index);
         }
-        let made = self.make(json, &name, solid).map_err(|reason| {
-            let element = material.map_or_else(|| name.clone(), |i| label("material", i, json.name.as_deref()));
+        let draft = self.make(json, name.clone(), solid).map_err(|reason| {
+            let element = material.map_or(name, |i| label("material", i, json.name.as_deref()));
             self.document.error(element, reason)
         })?;
-        let index = self.list.len() as u32;
-        self.list.push((name, made));
+        let index = self.drafts.len() as u32;
+        self.drafts.push(draft);
         self.index_of.insert((material, solid), index);
         Ok(index)
     }
 
-    /// One sentence for everything that is to be said of some materials.
-    pub fn notes(self) -> Vec<String> {
-        let sentence = |(remark, mut names): (String, Vec<String>)| {
-            names.dedup();
-            let more = names.len().saturating_sub(6);
-            let listed = names.iter().take(6).map(|n| format!("'{n}'")).collect::<Vec<_>>().join(", ");
-            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-            format!("{remark}: {listed}{more}.")
+    /// What a material wants of the vertices.
+    pub fn needs(&self, index: u32) -> Needs {
+        let Draft { material, alpha, .. } = &self.drafts[index as usize];
+        let set = |texture: u32| self.textures.uses.get(texture as usize).map(|x| x.set as usize);
+        let mut needs = Needs { tangents: material.normal_texture != NONE, alpha: alpha.is_some(), ..Needs::default() };
+        let all = [material.base_color_texture, material.metallic_roughness_texture, material.emissive_texture, material.normal_texture];
+        all.into_iter().filter_map(set).for_each(|set| needs.sets[set] = true);
+        needs
+    }
+
+    /// Takes note that a mesh has colours at its vertices, `least` their least alpha.
+    pub fn has_colors(&mut self, index: u32, least: f32) {
+        let draft = &mut self.drafts[index as usize];
+        draft.material.flags |= VARIES;
+        draft.vertex_alpha = draft.vertex_alpha.min(least);
+    }
+
+    /// Says of a material what its meshes lack.
+    pub fn remark(&mut self, index: u32, remark: &str) {
+        self.remarks.add(remark, &self.drafts[index as usize].name);
+    }
+
+    /// Decodes the images and settles what depends on them; what is to be told goes to `notes`.
+    pub fn finish(self, notes: &mut Vec<String>) -> Result<Finished, SceneError> {
+        notes.extend(self.remarks.sentences());
+        let decoded = images::decode(self.textures.pictures, notes).map_err(|reason| SceneError::file(self.document.file, reason))?;
+        let uses = self.textures.uses;
+        let least = |texture: u32| uses.get(texture as usize).map_or(255, |x| decoded[x.image as usize].least_alpha);
+        let finished = |draft: Draft| {
+            let Draft { name, mut material, alpha, vertex_alpha } = draft;
+            let lowest = material.opacity * (f32::from(least(material.base_color_texture)) / 255.0) * vertex_alpha;
+            // Interpolation rounds: what just reaches the cutoff counts as transparent.
+            let transparent = alpha.is_some_and(|cutoff| lowest < cutoff.map_or(1.0, |cutoff| cutoff.min(1e9) * (1.0 + 1e-6)));
+            if transparent {
+                material.flags |= TRANSPARENT;
+                material.cutoff = alpha.flatten().unwrap_or(-1.0);
+            } else {
+                material.opacity = 1.0;
+                // Its colour is its emission.
+                material.base_color_texture = if material.has(UNLIT) { NONE } else { material.base_color_texture };
+            }
+            (name, material.finished())
         };
-        self.remarks.into_iter().map(sentence).collect()
+        let list = self.drafts.into_iter().map(finished).collect();
+        Ok(Finished { list, textures: uses, images: decoded.into_iter().map(|decoded| decoded.image).collect() })
     }
 
-    fn remark(&mut self, remark: impl Into<String>, name: &str) {
-        self.remarks.entry(remark.into()).or_default().push(name.to_owned());
+    fn make(&mut self, json: &Json, name: String, solid: bool) -> Result<Draft, String> {
+        let f = Factors::read(json, &mut |remark| self.remarks.add(remark, &name))?;
+        self.say_what_is_ignored(json, &name);
+        let alpha = match json.alpha_mode {
+            Checked::Valid(AlphaMode::Opaque) => None,
+            Checked::Valid(AlphaMode::Mask) => Some(Some(json.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0.max(0.0)))),
+            Checked::Valid(AlphaMode::Blend) => Some(None),
+            Checked::Invalid => return Err("its alphaMode is none of OPAQUE, MASK and BLEND; export the file again".into()),
+        };
+        let pbr = &json.pbr_metallic_roughness;
+        let base_color_texture = self.texture(pbr.base_color_texture.as_ref(), "base colour", true, &name)?;
+        let opacity = if alpha.is_some() { f.opacity } else { 1.0 };
+        let sided = Material { two_sided: u32::from(json.double_sided), opacity, base_color_texture, ..Material::lambert(f.color) };
+        let unlit = json.extensions.as_ref().is_some_and(|e| e.unlit.is_some());
+        let material = if unlit {
+            Material { color: Vec3::ZERO, emission: f.color, emissive_texture: base_color_texture, flags: UNLIT, ..sided }
+        } else {
+            self.scattering(json, &f, solid, sided, &name)?
+        };
+        Ok(Draft { name, material, alpha, vertex_alpha: 1.0 })
     }
 
-    fn make(&mut self, json: &Json, name: &str, solid: bool) -> Result<Material, String> {
-        let base = json.pbr_metallic_roughness.base_color_factor.0;
-        let color = self.factors(Vec3::new(base[0], base[1], base[2]), "base colour", name)?;
-        let scattering = match model(json, color)? {
-            Model::Lambert(albedo) => Material::lambert(albedo),
-            Model::Mirror(f0) => Material::mirror(f0),
-            Model::Dielectric { tint, ior } => {
-                if absorbs(json) {
-                    self.remark("The absorption inside glass was ignored", name);
+    /// A material that scatters, and may emit.
+    fn scattering(&mut self, json: &Json, f: &Factors, solid: bool, sided: Material, name: &str) -> Result<Material, String> {
+        let smooth = f.roughness < SMOOTH;
+        let clear = f.transmission >= 1.0 && !f.transmission_varies && f.metallic == 0.0 && smooth;
+        let emissive = json.emissive_texture.as_ref().filter(|_| f.emission != Vec3::ZERO);
+        let emissive_texture = self.texture(emissive, "emissive", true, name)?;
+        let (normal_texture, normal_scale) = match &json.normal_texture {
+            Some(normal) if normal.scale.is_finite() => (self.refer(&Reference::of_normal(normal)?, "normal", false, name)?, normal.scale),
+            Some(_) => return Err("the scale of its normal texture is not finite; repair the material and export it again".into()),
+            None => (NONE, 1.0),
+        };
+        let material = Material { emission: f.emission, emissive_texture, normal_texture, normal_scale, ..sided };
+        if f.transmission > 0.0 && f.metallic < 1.0 {
+            match f.ior {
+                Some(ior) if clear => {
+                    if f.f0_scale != Vec3::ONE || f.f90 != 1.0 {
+                        self.remarks.add("The specular factors of glass were ignored", name);
+                    }
+                    if factors::absorbs(json) {
+                        self.remarks.add("The absorption inside glass was ignored", name);
+                    }
+                    let kind = Material::dielectric(f.color, ior, !solid).kind;
+                    return Ok(Material { kind, ior, ..material });
                 }
-                Material::dielectric(tint, ior, !solid)
+                None if clear => self.remarks.add("Shown opaque because glass of an index of refraction of 0 is not modelled", name),
+                _ => self.remarks.add("Shown opaque because rough or partial transmission is not modelled", name),
             }
-            Model::Unknown(why) => {
-                self.remark(format!("Shown as grey Lambert (albedo 0.5) because of {why}"), name);
-                Material::lambert(GREY)
-            }
-        };
-        Ok(Material { emission: self.emission(json, name)?, two_sided: u32::from(json.double_sided), ..scattering })
-    }
-
-    /// Factors that must lie in [0, 1], clamped.
-    fn factors(&mut self, factors: Vec3, what: &str, name: &str) -> Result<Vec3, String> {
-        if !factors.is_finite() {
-            return Err(format!("its {what} is not finite; repair the material and export it again"));
         }
-        let clamped = factors.clamp(Vec3::ZERO, Vec3::ONE);
-        if clamped != factors {
-            self.remark(format!("The {what} was clamped to 0…1"), name);
+        if f.metallic == 0.0 && f.f90 == 0.0 {
+            return Ok(Material { kind: LAMBERT, ..material });
         }
-        Ok(clamped)
-    }
-
-    /// L_e, W m⁻² sr⁻¹.
-    fn emission(&mut self, json: &Json, name: &str) -> Result<Vec3, String> {
-        let strength = json.extensions.as_ref().and_then(|e| e.emissive_strength.as_ref()).map_or(1.0, |e| e.emissive_strength.0);
-        let emission = Vec3::from_array(json.emissive_factor.0) * strength;
-        if !(emission.is_finite() && emission.max_element() <= MAX_RADIANCE) {
-            return Err(format!("its emission is not finite or above {MAX_RADIANCE:.0e}; repair the material and export it again"));
+        let varied = json.pbr_metallic_roughness.metallic_roughness_texture.as_ref();
+        let metallic_roughness_texture = self.texture(varied, "metallic-roughness", false, name)?;
+        let glossy = Material { roughness: f.roughness, metallic: f.metallic, metallic_roughness_texture, ..material };
+        if f.metallic == 1.0 && metallic_roughness_texture == NONE {
+            return Ok(Material { kind: if smooth { MIRROR } else { CONDUCTOR }, ..glossy });
         }
-        if emission.min_element() < 0.0 {
-            self.remark("Negative emission was set to 0", name);
+        let reflectance = f.ior.map_or(1.0, |ior| ((ior - 1.0) / (ior + 1.0)).powi(2));
+        Ok(Material { kind: COAT, f0: (f.f0_scale * reflectance).min(Vec3::ONE) * f.f90, f90: f.f90, ..glossy })
+    }
+
+    /// The index of a texture, [`NONE`] without one.
+    fn texture(&mut self, info: Option<&Info>, what: &str, srgb: bool, name: &str) -> Result<u32, String> {
+        info.map_or(Ok(NONE), |info| self.refer(&Reference::of(info), what, srgb, name))
+    }
+
+    fn refer(&mut self, reference: &Reference, what: &str, srgb: bool, name: &str) -> Result<u32, String> {
+        if reference.set() > 1 {
+            self.remarks.add("Texture coordinates beyond set 1 are not read, set 0 stands in for them", name);
         }
-        let emission = emission.max(Vec3::ZERO);
-        if json.emissive_texture.is_some() && emission != Vec3::ZERO {
-            self.remark("The emissive texture was ignored, the emissive factor holds all over", name);
+        let used = self.textures.index(reference, srgb).map_err(|reason| format!("its {what} texture: {reason}"))?;
+        Ok(used.unwrap_or_else(|format| {
+            self.remarks.add(format!("The {what} texture was ignored, as {format} images are not read"), name);
+            NONE
+        }))
+    }
+
+    /// Names what of a material has no place in the models.
+    fn say_what_is_ignored(&mut self, json: &Json, name: &str) {
+        let extensions = json.extensions.as_ref();
+        let specular = extensions.and_then(|e| e.specular.as_ref());
+        let transmission = extensions.and_then(|e| e.transmission.as_ref()).filter(|t| t.transmission_factor.0 > 0.0);
+        let volume = extensions.and_then(|e| e.volume.as_ref());
+        let ignored = [
+            ("occlusion", json.occlusion_texture.is_some()),
+            ("specular", specular.is_some_and(|s| s.specular_texture.is_some())),
+            ("specular colour", specular.is_some_and(|s| s.specular_color_texture.is_some())),
+            ("transmission", transmission.is_some_and(|t| t.transmission_texture.is_some())),
+            ("thickness", volume.is_some_and(|v| v.thickness_texture.is_some())),
+        ];
+        for (what, _) in ignored.into_iter().filter(|(_, there)| *there) {
+            self.remarks.add(format!("The {what} texture was ignored"), name);
         }
-        Ok(emission)
+        for extension in extensions.into_iter().flat_map(|e| e.others.keys()) {
+            self.remarks.add(format!("The extension {extension} was ignored"), name);
+        }
     }
-}
-
-/// Which model a material is.
-fn model(json: &Json, color: Vec3) -> Result<Model, String> {
-    let pbr = &json.pbr_metallic_roughness;
-    let (metallic, roughness, transmission) = (pbr.metallic_factor.0, pbr.roughness_factor.0, transmission(json));
-    let extensions = json.extensions.as_ref();
-    let ior = extensions.and_then(|e| e.ior.as_ref()).map_or(1.5, |e| e.ior.0);
-    let specular = extensions.and_then(|e| e.specular.as_ref());
-    let specular_factor = specular.map_or(1.0, |s| s.specular_factor.0);
-    if [metallic, roughness, transmission, ior, specular_factor].iter().any(|f| !f.is_finite()) {
-        return Err("one of its factors is not finite; repair the material and export it again".into());
-    }
-    let unknown = |why: &str| Ok(Model::Unknown(why.to_owned()));
-    if let Some(why) = beyond_factors(json) {
-        return Ok(Model::Unknown(why));
-    }
-    if metallic >= 1.0 {
-        return if roughness < SMOOTH { Ok(Model::Mirror(color)) } else { unknown("rough metal") };
-    }
-    if metallic > 0.0 {
-        return unknown("a metalness between 0 and 1");
-    }
-    if transmission > 0.0 {
-        let plain = specular.is_none_or(|s| s.specular_factor.0 == 1.0 && s.specular_color_factor.0 == [1.0; 3]);
-        return match () {
-            () if transmission < 1.0 => unknown("partial transmission"),
-            () if roughness >= SMOOTH => unknown("rough transmission"),
-            () if ior < 1.0 => unknown("an index of refraction below 1"),
-            () if !plain => unknown("transmission with altered specular reflection"),
-            () => Ok(Model::Dielectric { tint: color, ior }),
-        };
-    }
-    if specular_factor <= 0.0 { Ok(Model::Lambert(color)) } else { unknown("a specular coat") }
-}
-
-/// What of a material is not a factor of the models: textures, alpha, unlit, unknown extensions.
-fn beyond_factors(json: &Json) -> Option<String> {
-    let pbr = &json.pbr_metallic_roughness;
-    let extensions = json.extensions.as_ref();
-    let specular = extensions.and_then(|e| e.specular.as_ref());
-    let textured = pbr.base_color_texture.is_some()
-        || pbr.metallic_roughness_texture.is_some()
-        || json.normal_texture.is_some()
-        || specular.is_some_and(|s| s.specular_texture.is_some() || s.specular_color_texture.is_some())
-        || extensions.and_then(|e| e.transmission.as_ref()).is_some_and(|t| t.transmission_texture.is_some());
-    if textured {
-        return Some("textures".into());
-    }
-    if !matches!(json.alpha_mode, Checked::Valid(AlphaMode::Opaque)) {
-        return Some("transparency by alpha".into());
-    }
-    if extensions.is_some_and(|e| e.unlit.is_some()) {
-        return Some("KHR_materials_unlit".into());
-    }
-    extensions.and_then(|e| e.others.keys().next().cloned())
-}
-
-/// `KHR_materials_transmission`'s factor, 0 without it.
-fn transmission(json: &Json) -> f32 {
-    json.extensions.as_ref().and_then(|e| e.transmission.as_ref()).map_or(0.0, |t| t.transmission_factor.0)
-}
-
-/// `KHR_materials_volume`'s thickness, 0 without it.
-fn thickness(json: &Json) -> f32 {
-    json.extensions.as_ref().and_then(|e| e.volume.as_ref()).map_or(0.0, |v| v.thickness_factor.0)
-}
-
-/// Does the inside absorb?
-fn absorbs(json: &Json) -> bool {
-    let volume = json.extensions.as_ref().and_then(|e| e.volume.as_ref());
-    volume.is_some_and(|v| v.attenuation_distance.0.is_finite() && v.attenuation_color.0 != [1.0; 3])
 }

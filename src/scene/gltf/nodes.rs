@@ -25,13 +25,13 @@ impl Placed<'_> {
     }
 }
 
-/// All nodes of the default scene (or of the first, or all roots if there is no scene), in file order, depth first.
+/// All nodes of the scene to be shown (or all roots if there is none), in file order, depth first.
 pub fn placed<'a>(document: &'a Document) -> Result<Vec<Placed<'a>>, SceneError> {
     let nodes = &document.root.nodes;
     let mut seen = vec![false; nodes.len()];
     let mut list = Vec::with_capacity(nodes.len());
     // A stack, not recursion: a chain of a million nodes is a strange file, not a crash.
-    let mut stack: Vec<(usize, DMat4)> = roots(document)?.into_iter().rev().map(|i| (i, DMat4::IDENTITY)).collect();
+    let mut stack: Vec<(usize, DMat4)> = roots(document).into_iter().rev().map(|i| (i, DMat4::IDENTITY)).collect();
     while let Some((index, world_from_parent)) = stack.pop() {
         let Some(node) = nodes.get(index) else {
             return Err(document.error(
@@ -54,25 +54,18 @@ pub fn placed<'a>(document: &'a Document) -> Result<Vec<Placed<'a>>, SceneError>
 }
 
 /// The nodes that start the scene.
-fn roots(document: &Document) -> Result<Vec<usize>, SceneError> {
+fn roots(document: &Document) -> Vec<usize> {
     let root = &document.root;
-    let index = root.scene.map_or(0, |scene| scene.value());
-    match root.scenes.get(index) {
-        Some(scene) => Ok(scene.nodes.iter().map(|node| node.value()).collect()),
-        None if root.scene.is_none() => {
-            let mut is_child = vec![false; root.nodes.len()];
-            for child in root.nodes.iter().flat_map(|node| node.children.iter().flatten()) {
-                if let Some(flag) = is_child.get_mut(child.value()) {
-                    *flag = true;
-                }
-            }
-            Ok((0..root.nodes.len()).filter(|&i| !is_child[i]).collect())
-        }
-        None => Err(document.error(
-            format!("scene {index}"),
-            format!("it is the default, but there are only {} scenes; export the file again", root.scenes.len()),
-        )),
+    if let Some(scene) = document.scene.and_then(|index| root.scenes.get(index)) {
+        return scene.nodes.iter().map(|node| node.value()).collect();
     }
+    let mut is_child = vec![false; root.nodes.len()];
+    for child in root.nodes.iter().flat_map(|node| node.children.iter().flatten()) {
+        if let Some(flag) = is_child.get_mut(child.value()) {
+            *flag = true;
+        }
+    }
+    (0..root.nodes.len()).filter(|&i| !is_child[i]).collect()
 }
 
 /// A node's own transform.
