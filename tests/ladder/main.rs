@@ -11,6 +11,7 @@ mod lights;
 mod replay;
 mod sampling;
 mod scenes;
+mod shapes;
 mod sky;
 mod stats;
 mod strategies;

@@ -105,9 +105,9 @@ fn every_pair_of_strategies_agrees_per_length() {
         (surface_scenes::glossy_room(), 200_000),
         (surface_scenes::textured(), 400_000),
         (surface_scenes::veils(false), 400_000),
-        (surface_scenes::veils(true), 600_000),
+        (surface_scenes::veils(true), 800_000),
         (surface_scenes::veils_under_the_sky(), 400_000),
-        (surface_scenes::furnace_with_veils(1.0, 0.6, true), 200_000),
+        (surface_scenes::furnace_with_veils(1.0, 0.6, true), 300_000),
     ];
     let (mut results, mut with_t_0) = (Vec::new(), 0);
     for (scene, samples) in &scenes {

@@ -134,7 +134,7 @@ pub fn veils(lens: bool) -> Arc<Scene> {
     room.quad([-0.5, 1.2, -0.5], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], lamp);
     room.camera([0.6, 0.1, 2.6], [-0.1, -0.1, 0.0], 55.0);
     if lens {
-        room.lens(0.6, 1.7);
+        room.lens(0.9, 1.7);
     }
     room.build()
 }
@@ -172,12 +172,12 @@ pub fn furnace_with_veils(radiance: f32, albedo: f32, lens: bool) -> Arc<Scene> 
     room.quad([0.5, -0.8, -0.7], [0.0, 1.6, 0.0], [0.1, 0.0, 1.8], sheets[2]);
     room.camera([0.1, 0.2, 0.3], [1.0, 0.3, -0.4], 70.0);
     if lens {
-        room.lens(0.35, 0.8);
+        room.lens(0.5, 0.8);
     }
     room.build()
 }
 
-/// A floor under a point light or a lamp, and `count` black sheets of alpha `opacity` between them and before the camera.
+/// A floor under a spot or a lamp, and `count` black sheets of alpha `opacity` between them and before the camera.
 pub fn stack(count: u32, opacity: f32, lamp: bool) -> Arc<Scene> {
     let mut room = Room::new("stack");
     let floor = room.material(Material::lambert(Vec3::splat(0.5)));
@@ -189,11 +189,11 @@ pub fn stack(count: u32, opacity: f32, lamp: bool) -> Arc<Scene> {
     }
     if lamp {
         let lamp = room.emitter(3.0, 0.0, false);
-        room.quad([-0.6, 2.0, -0.6], [1.2, 0.0, 0.0], [0.0, 0.0, 1.2], lamp);
+        room.quad([-0.3, 1.0, -0.3], [0.6, 0.0, 0.0], [0.0, 0.0, 0.6], lamp);
     } else {
-        room.point([0.0, 2.0, 0.0], Vec3::splat(3.0));
+        room.spot([0.0, 1.0, 0.0], [0.0, -1.0, 0.0], Vec3::splat(3.0), [35.0, 40.0]);
     }
-    room.camera([0.0, 0.3, 0.9], [0.0, 0.0, 0.0], 30.0);
+    room.camera([0.0, 0.45, 0.6], [0.0, 0.0, 0.0], 60.0);
     room.build()
 }
 
@@ -205,9 +205,9 @@ pub fn lamp_behind(count: u32, opacity: f32) -> Arc<Scene> {
     for i in 0..count {
         room.quad([-2.0, -2.0, 0.1 * f64::from(i)], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], sheet);
     }
-    room.quad([-2.0, -2.0, -1.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], lamp);
-    room.camera([0.0, 0.0, 2.0], [0.0, 0.0, 0.0], 40.0);
-    room.lens(0.2, 3.0);
+    room.quad([-2.0, -2.0, -0.3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], lamp);
+    room.camera([0.0, 0.0, 0.9], [0.0, 0.0, 0.0], 60.0);
+    room.lens(0.8, 1.5);
     room.build()
 }
 
