@@ -72,6 +72,16 @@ pub struct Stats {
     pub saturated: u64,
     /// Largest resident memory of the process so far, bytes (where the system tells; else the film's).
     pub peak_memory_bytes: u64,
+    /// Triangles.
+    pub triangles: usize,
+    /// Wall-clock time of loading the scene, s.
+    pub load_seconds: f64,
+    /// Of that, building the hierarchy, s.
+    pub build_seconds: f64,
+    /// The scene's flat arrays without its textures, bytes.
+    pub scene_bytes: usize,
+    /// Its textures, bytes.
+    pub texture_bytes: usize,
     /// The scene's features in use.
     pub features: Vec<String>,
     /// Radius of the lens, m; 0 is a pinhole.
@@ -223,6 +233,11 @@ impl Session {
             non_finite: self.counts.non_finite,
             saturated: self.counts.saturated,
             peak_memory_bytes: peak_memory().unwrap_or(film_bytes),
+            triangles: self.job.scene.triangles.len(),
+            load_seconds: self.job.scene.costs.load_seconds,
+            build_seconds: self.job.scene.costs.build_seconds,
+            scene_bytes: self.job.scene.bytes(),
+            texture_bytes: self.job.scene.textures.bytes(),
             features: self.job.scene.features.names().into_iter().map(str::to_owned).collect(),
             lens_radius: self.job.lens().radius,
             lost_paths: self.job.existence().lost_paths(&self.job.settings),

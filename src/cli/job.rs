@@ -55,7 +55,7 @@ pub fn say_what_is_lost(existence: Existence, settings: &Settings) {
 
 /// Opens a scene and says what its loader had to say.
 pub fn open(name: &str, overrides: &Overrides) -> Result<Arc<Scene>, Failure> {
-    let scene = builtin::open_with(name, overrides)?;
+    let scene = super::progress::loading(|progress| builtin::open_with(name, overrides, progress))?;
     for note in &scene.notes {
         eprintln!("note: {note}");
     }

@@ -2,8 +2,10 @@
 
 use super::Failure;
 use crate::engine::Session;
+use crate::scene::Progress;
+use crate::scene::progress::Stage;
 use indicatif::{ProgressBar, ProgressStyle};
-use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering::Relaxed};
 use std::time::{Duration, Instant};
 
 /// When to stop: at so many samples per pixel, or when the time is over, whichever comes first.
@@ -48,6 +50,42 @@ pub fn run(session: &mut Session, limit: Limit) -> Result<bool, Failure> {
     }
     bar.finish_and_clear();
     Ok(false)
+}
+
+/// Loads something with a line about how far it is; it shows only on a terminal, and only where loading takes a while.
+pub fn loading<T>(load: impl FnOnce(&Progress) -> T) -> T {
+    let (progress, over) = (Progress::default(), AtomicBool::new(false));
+    std::thread::scope(|scope| {
+        let watcher = scope.spawn(|| {
+            let (start, mut spinner) = (Instant::now(), None);
+            while !over.load(Relaxed) {
+                std::thread::park_timeout(Duration::from_millis(100));
+                if start.elapsed() > Duration::from_millis(300) && !over.load(Relaxed) {
+                    let line = spinner.get_or_insert_with(ProgressBar::new_spinner);
+                    line.set_message(stage(&progress));
+                    line.tick();
+                }
+            }
+            if let Some(line) = spinner {
+                line.finish_and_clear();
+            }
+        });
+        let loaded = load(&progress);
+        over.store(true, Relaxed);
+        watcher.thread().unpark();
+        loaded
+    })
+}
+
+/// What the loader is at, in words.
+fn stage(progress: &Progress) -> String {
+    let (stage, done, total) = progress.now();
+    match stage {
+        Stage::Reading => "reading the file".to_owned(),
+        Stage::Meshes => format!("reading the meshes, {done} of {total}"),
+        Stage::Images => format!("decoding the images, {done} of {total}"),
+        Stage::Building => format!("building the hierarchy over {total} triangles"),
+    }
 }
 
 /// A bar over passes, or over tenths of a second; it shows only on a terminal.

@@ -7,7 +7,7 @@ use super::bvh::Bvh;
 use super::light::Light;
 use super::sphere::Sphere;
 use super::texture::{Image, TextureUse, Textures};
-use super::{Camera, Environment, Lens, Lights, Material, NONE, Scene, SceneError, SceneFeatures, Triangle};
+use super::{Camera, Costs, Environment, Lens, Lights, Material, NONE, Scene, SceneError, SceneFeatures, Triangle};
 use crate::math::{DVec3, Vec2, Vec3};
 use glam::Vec4;
 use std::path::Path;
@@ -243,7 +243,9 @@ impl Scene {
         let cameras = parts.cameras.iter().map(|c| camera(c, origin)).collect::<Option<Vec<_>>>().filter(|list| !list.is_empty());
         let cameras = cameras.ok_or_else(|| parts.error("the scene has no usable camera; add a perspective camera"))?;
         let sphere = Sphere::around_points(triangles.iter().flat_map(|t| [t.p0, t.p1, t.p2]));
+        let start = web_time::Instant::now();
         let bvh = Bvh::build(&mut triangles);
+        let build_seconds = start.elapsed().as_secs_f64();
         let (material_names, materials): (Vec<_>, Vec<_>) = parts.materials.into_iter().unzip();
         let others = parts.lights.iter().filter_map(|(name, light)| Some((name.clone(), light.relative_to(origin)?))).collect();
         let textures = Textures::new(&parts.images, &parts.textures);
@@ -263,6 +265,7 @@ impl Scene {
             scene_names: parts.scene_names,
             scene: parts.scene,
             features: SceneFeatures::default(),
+            costs: Costs { build_seconds, ..Costs::default() },
         };
         scene.collect_lights(others, parts.environment);
         scene.features = SceneFeatures::of(&scene.triangles, &scene.attributes, &scene.materials, &scene.lights);

@@ -109,6 +109,14 @@ pub struct Arrays {
     pub colors: Vec<Colors>,
 }
 
+impl Arrays {
+    /// Bytes of all arrays.
+    pub fn bytes(&self) -> usize {
+        let Self { list, normals, tangents, uvs, colors } = self;
+        size_of_val(&list[..]) + size_of_val(&normals[..]) + size_of_val(&tangents[..]) + size_of_val(&uvs[..]) + size_of_val(&colors[..])
+    }
+}
+
 /// The value at barycentric coordinates (b1, b2) of what is b0 a + b1 b + b2 c.
 macro_rules! interpolate {
     ($b:expr, $a:expr, $b1:expr, $c:expr) => {

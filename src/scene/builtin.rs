@@ -1,6 +1,6 @@
 //! The scenes that come with the program, each small and chosen for what it teaches.
 
-use super::{Overrides, Scene, SceneError, gltf};
+use super::{Overrides, Progress, Scene, SceneError, gltf};
 use std::path::Path;
 
 /// A scene inside the program.
@@ -73,20 +73,27 @@ pub fn list() -> &'static [Builtin] {
 /// # Errors
 /// As [`gltf::load`]; a name that is neither lists the built-in ones.
 pub fn open(name_or_path: &str) -> Result<Scene, SceneError> {
-    open_with(name_or_path, &Overrides::default())
+    open_with(name_or_path, &Overrides::default(), &Progress::default())
 }
 
-/// [`open`], with some things other than the file has them.
+/// [`open`], with some things other than the file has them, and telling how far it is.
 ///
 /// # Errors
 /// As [`open`].
-pub fn open_with(name_or_path: &str, overrides: &Overrides) -> Result<Scene, SceneError> {
+pub fn open_with(name_or_path: &str, overrides: &Overrides, progress: &Progress) -> Result<Scene, SceneError> {
+    let start = web_time::Instant::now();
+    let mut scene = load(name_or_path, overrides, progress)?;
+    scene.costs.load_seconds = start.elapsed().as_secs_f64();
+    Ok(scene)
+}
+
+fn load(name_or_path: &str, overrides: &Overrides, progress: &Progress) -> Result<Scene, SceneError> {
     if let Some(scene) = SCENES.iter().find(|scene| scene.name == name_or_path) {
         return gltf::load_bytes(scene.name, scene.bytes, overrides);
     }
     let path = Path::new(name_or_path);
     if path.is_file() {
-        return gltf::load(path, overrides);
+        return gltf::load_telling(path, overrides, progress);
     }
     if path.is_dir() {
         return Err(SceneError::file(path, "this is a folder; give the .gltf or .glb file in it"));

@@ -14,7 +14,8 @@ mod nodes;
 mod shape;
 mod textures;
 
-use super::{Overrides, Parts, Scene, SceneError};
+use super::progress::Stage;
+use super::{Overrides, Parts, Progress, Scene, SceneError};
 use container::{Document, listed};
 use material::Materials;
 use std::path::Path;
@@ -38,12 +39,20 @@ const KNOWN_EXTENSIONS: [&str; 9] = [
 /// If the file or another that it or the user names cannot be read, anything it refers to does not exist or does not fit, it
 /// requires an extension we do not know, it has no scene of the wanted name, there is nothing to see, or no environment where one is to be turned.
 pub fn load(path: &Path, overrides: &Overrides) -> Result<Scene, SceneError> {
+    load_telling(path, overrides, &Progress::default())
+}
+
+/// [`load`], telling how far it is.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_telling(path: &Path, overrides: &Overrides, progress: &Progress) -> Result<Scene, SceneError> {
     let bytes = super::read::whole(path).map_err(|e| match e.kind() {
         std::io::ErrorKind::NotFound => SceneError::file(path, "there is no such file; check the path"),
         _ => SceneError::file(path, format!("cannot be read ({e}); check the path and its permissions")),
     })?;
     let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
-    read(&name, (path, path.parent().or(Some(Path::new("")))), &bytes, overrides)
+    read(&name, (path, path.parent().or(Some(Path::new("")))), &bytes, overrides, progress)
 }
 
 /// Loads a .glb (or a self-contained .gltf) from memory; `name` is used for the scene and in errors.
@@ -51,11 +60,17 @@ pub fn load(path: &Path, overrides: &Overrides) -> Result<Scene, SceneError> {
 /// # Errors
 /// As [`load`]; that the file names another is an error too.
 pub fn load_bytes(name: &str, bytes: &[u8], overrides: &Overrides) -> Result<Scene, SceneError> {
-    read(name, (Path::new(name), None), bytes, overrides)
+    read(name, (Path::new(name), None), bytes, overrides, &Progress::default())
 }
 
 /// Reads a file; those it names are looked for in `folder`.
-fn read(name: &str, (file, folder): (&Path, Option<&Path>), bytes: &[u8], overrides: &Overrides) -> Result<Scene, SceneError> {
+fn read(
+    name: &str,
+    (file, folder): (&Path, Option<&Path>),
+    bytes: &[u8],
+    overrides: &Overrides,
+    progress: &Progress,
+) -> Result<Scene, SceneError> {
     let document = Document::parse(file, bytes, folder, overrides.scene.as_deref())?;
     if let Some(extension) = document.root.extensions_required.iter().find(|e| !KNOWN_EXTENSIONS.contains(&e.as_str())) {
         return Err(SceneError::file(file, format!("it requires the extension {extension}, which cannot be read; export it without")));
@@ -66,8 +81,8 @@ fn read(name: &str, (file, folder): (&Path, Option<&Path>), bytes: &[u8], overri
     let cameras = nodes::cameras(&document, &placed, &mut notes)?;
     let lights = lights::lights(&document, &placed, &mut notes)?;
     let environment = extras::environment(&document, overrides, &mut notes)?;
-    let triangles = mesh::triangles(&document, &placed, &mut materials, &mut notes)?;
-    let materials = materials.finish(&mut notes)?;
+    let triangles = mesh::triangles(&document, &placed, &mut materials, &mut notes, progress)?;
+    let materials = materials.finish(&mut notes, progress)?;
     let ignored = ignored_parts(&document, &notes);
     notes.extend(ignored);
     let parts = Parts {
@@ -88,6 +103,7 @@ fn read(name: &str, (file, folder): (&Path, Option<&Path>), bytes: &[u8], overri
     if overrides.environment_rotation.is_some() && parts.environment.is_none() {
         return Err(SceneError::file(file, "it has no environment that could be turned; give it one as well"));
     }
+    progress.begin(Stage::Building, parts.triangles.len());
     // Errors name the file as the user did, not as the scene is called.
     Scene::assemble(parts).map_err(|e| SceneError { file: file.display().to_string(), ..e })
 }

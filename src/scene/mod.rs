@@ -19,6 +19,7 @@ pub mod features;
 pub mod gltf;
 pub mod light;
 pub mod material;
+pub mod progress;
 mod read;
 pub mod sphere;
 pub mod surface;
@@ -34,6 +35,7 @@ pub use error::SceneError;
 pub use features::{General, Matte, Opaque, SceneFeatures, Shape};
 pub use light::Lights;
 pub use material::{COAT, CONDUCTOR, DIELECTRIC, LAMBERT, MIRROR, Material, THIN_DIELECTRIC};
+pub use progress::Progress;
 pub use surface::{Look, SurfacePoint};
 
 use crate::math::{DVec3, Vec3};
@@ -93,9 +95,28 @@ pub struct Scene {
     pub scene: Option<usize>,
     /// What this scene needs of a renderer.
     pub features: SceneFeatures,
+    /// What it took to get here.
+    pub costs: Costs,
+}
+
+/// What it took to load a scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Costs {
+    /// Wall-clock time of all of it, s.
+    pub load_seconds: f64,
+    /// Of building the hierarchy, s.
+    pub build_seconds: f64,
 }
 
 impl Scene {
+    /// Bytes of the flat arrays: triangles and what they have, hierarchy, materials, lights; textures apart.
+    pub fn bytes(&self) -> usize {
+        fn of<T>(list: &[T]) -> usize {
+            size_of_val(list)
+        }
+        of(&self.triangles) + of(&self.bvh.nodes) + of(&self.materials) + of(&self.lights.list) + self.attributes.bytes()
+    }
+
     /// The first hit of a ray, as a surface point; alpha does not count.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<SurfacePoint> {

@@ -42,7 +42,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
             painter.image(texture, image, Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0)), Color32::WHITE);
         }
         None => {
-            let text = state.say(if live.loading().is_some() { Text::Loading } else { Text::Waiting });
+            let text = live.loading_text(state);
             painter.text(
                 panel.center(),
                 egui::Align2::CENTER_CENTER,

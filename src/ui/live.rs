@@ -135,6 +135,11 @@ impl Live {
         self.loader.underway()
     }
 
+    /// How far it is, in a sentence; that nothing is loaded, if so.
+    pub fn loading_text(&self, state: &State) -> String {
+        self.loader.sentence(state)
+    }
+
     /// What is rendered, or about to be: a change to it starts from here.
     pub fn wanted(&self) -> Option<&Opening> {
         self.loading().or(self.opened())

@@ -1,7 +1,9 @@
 //! Loads scenes on a thread of their own, one at a time: what is asked for last is what counts.
 
-use super::state::Opening;
-use crate::scene::{Overrides, Scene, SceneError, builtin};
+use super::state::{Opening, State};
+use super::text::{Text, fill};
+use crate::scene::progress::Stage;
+use crate::scene::{Overrides, Progress, Scene, SceneError, builtin};
 use eframe::egui;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
@@ -17,22 +19,25 @@ pub enum Failure {
 pub struct Loader {
     ctx: egui::Context,
     underway: Option<(Opening, Receiver<Result<Scene, SceneError>>)>,
+    progress: Progress,
 }
 
 impl Loader {
     /// Nothing is loaded yet.
     pub fn new(ctx: &egui::Context) -> Self {
-        Self { ctx: ctx.clone(), underway: None }
+        Self { ctx: ctx.clone(), underway: None, progress: Progress::default() }
     }
 
     /// Starts loading; what was underway is forgotten.
     pub fn start(&mut self, opening: Opening) {
         let (sender, receiver) = channel();
-        let (ctx, wanted) = (self.ctx.clone(), opening.clone());
+        // What was underway keeps its own.
+        self.progress = Progress::default();
+        let (ctx, wanted, progress) = (self.ctx.clone(), opening.clone(), self.progress.clone());
         self.underway = Some((opening, receiver));
         std::thread::spawn(move || {
             // A receiver that is gone waits for another scene by now.
-            let _ = sender.send(read(&wanted));
+            let _ = sender.send(read(&wanted, &progress));
             ctx.request_repaint();
         });
     }
@@ -40,6 +45,21 @@ impl Loader {
     /// What is being loaded.
     pub fn underway(&self) -> Option<&Opening> {
         self.underway.as_ref().map(|(opening, _)| opening)
+    }
+
+    /// How far it is, in a sentence.
+    pub fn sentence(&self, state: &State) -> String {
+        if self.underway.is_none() {
+            return state.say(Text::Waiting).to_owned();
+        }
+        let (stage, done, total) = self.progress.now();
+        let [done, total] = [done, total].map(|n| n.to_string());
+        match stage {
+            Stage::Reading => state.say(Text::Loading).to_owned(),
+            Stage::Meshes => fill(state.say(Text::LoadingMeshes), &[&done, &total]),
+            Stage::Images => fill(state.say(Text::LoadingImages), &[&done, &total]),
+            Stage::Building => fill(state.say(Text::LoadingHierarchy), &[&total]),
+        }
     }
 
     /// What has been loaded, once.
@@ -56,12 +76,12 @@ impl Loader {
 }
 
 /// Reads a scene. The person's environment, `opening.environment`, is handed to the scene's loader here, and nowhere else.
-fn read(opening: &Opening) -> Result<Scene, SceneError> {
+fn read(opening: &Opening, progress: &Progress) -> Result<Scene, SceneError> {
     let environment = opening.environment.as_ref();
     let overrides = Overrides {
         environment: environment.map(|chosen| chosen.source.clone()),
         environment_rotation: environment.map(|chosen| chosen.rotation),
         scene: None,
     };
-    builtin::open_with(&opening.scene, &overrides)
+    builtin::open_with(&opening.scene, &overrides, progress)
 }

@@ -49,7 +49,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     let help = format!("{current}\n{}", state.say(Text::HelpScene));
     response.response.labelled_by(label.id).on_hover_text(help);
     if live.loading().is_some() {
-        ui.spinner();
+        ui.spinner().on_hover_text(live.loading_text(state));
     }
 }
 

@@ -83,7 +83,7 @@ fn fitted(ui: &Ui, items: &[Item], room: f32) -> Vec<f32> {
 fn rendering(ui: &Ui, state: &State, live: &Live, ui_ms: f32) -> Vec<Item> {
     let mut items = Vec::new();
     let Some(frame) = live.frame() else {
-        items.push(Item::new(state.say(if live.loading().is_some() { Text::Loading } else { Text::Waiting }), "", 1));
+        items.push(Item::new(live.loading_text(state), "", 1));
         return items;
     };
     let coloured = |text: String, colour: Color32| RichText::new(text).color(colour);

@@ -14,6 +14,7 @@ mod glb;
 mod lights;
 mod materials;
 mod rendering;
+mod scale;
 #[path = "../common/skip.rs"]
 mod skip;
 

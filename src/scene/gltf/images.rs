@@ -4,6 +4,8 @@
 //! budget of all images is halved on decoding, the largest first. Gamma and colour profiles inside pictures do not count, as
 //! glTF demands.
 
+use super::super::Progress;
+use super::super::progress::Stage;
 use super::super::texture::Image;
 use ::image::{DynamicImage, ImageFormat, ImageReader, Limits};
 use rayon::prelude::*;
@@ -73,11 +75,17 @@ fn undecodable(label: &str, why: &str) -> String {
 }
 
 /// Decodes all pictures, halved where they would not fit otherwise; then a sentence is added to `notes`.
-pub fn decode(mut pictures: Vec<Picture>, notes: &mut Vec<String>) -> Result<Vec<Decoded>, String> {
+pub fn decode(mut pictures: Vec<Picture>, notes: &mut Vec<String>, progress: &Progress) -> Result<Vec<Decoded>, String> {
     notes.extend(fit(&mut pictures, MAX_TEXELS));
-    let small = |picture: &Picture| (texels(picture.size) <= LARGE).then(|| picture.decode());
+    progress.begin(Stage::Images, pictures.len());
+    let one = |picture: &Picture| {
+        let decoded = picture.decode();
+        progress.advance();
+        decoded
+    };
+    let small = |picture: &Picture| (texels(picture.size) <= LARGE).then(|| one(picture));
     let decoded: Vec<_> = pictures.par_iter().map(small).collect();
-    decoded.into_iter().zip(&pictures).map(|(small, picture)| small.unwrap_or_else(|| picture.decode())).collect()
+    decoded.into_iter().zip(&pictures).map(|(small, picture)| small.unwrap_or_else(|| one(picture))).collect()
 }
 
 fn texels([width, height]: [u32; 2]) -> u64 {

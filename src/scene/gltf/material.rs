@@ -15,7 +15,7 @@ mod factors;
 
 use super::super::material::{TRANSPARENT, UNLIT, VARIES};
 use super::super::texture::{Image, TextureUse};
-use super::super::{COAT, CONDUCTOR, LAMBERT, MIRROR, Material, NONE, SceneError};
+use super::super::{COAT, CONDUCTOR, LAMBERT, MIRROR, Material, NONE, Progress, SceneError};
 use super::container::{Document, label, listed};
 use super::images;
 use super::textures::{Reference, TextureTable};
@@ -140,9 +140,10 @@ impl<'a> Materials<'a> {
     }
 
     /// Decodes the images and settles what depends on them; what is to be told goes to `notes`.
-    pub fn finish(self, notes: &mut Vec<String>) -> Result<Finished, SceneError> {
+    pub fn finish(self, notes: &mut Vec<String>, progress: &Progress) -> Result<Finished, SceneError> {
         notes.extend(self.remarks.sentences());
-        let decoded = images::decode(self.textures.pictures, notes).map_err(|reason| SceneError::file(self.document.file, reason))?;
+        let decoded =
+            images::decode(self.textures.pictures, notes, progress).map_err(|reason| SceneError::file(self.document.file, reason))?;
         let uses = self.textures.uses;
         let least = |texture: u32| uses.get(texture as usize).map_or(255, |x| decoded[x.image as usize].least_alpha);
         let finished = |draft: Draft| {

@@ -1,6 +1,8 @@
 //! From mesh primitives to triangles in the scene's coordinates, with what they have for their textures.
 
+use super::super::Progress;
 use super::super::assemble::{PartAttributes, PartTriangle};
+use super::super::progress::Stage;
 use super::super::{NONE, SceneError};
 use super::container::{Document, label};
 use super::material::Materials;
@@ -31,13 +33,15 @@ struct Known {
     material: u32,
 }
 
-/// Reads all meshes that the placed nodes show; what is to be told of them goes to `notes`.
+/// Reads all meshes that the placed nodes show, and counts the nodes in `progress`; what is to be told of them goes to `notes`.
 pub fn triangles(
     document: &Document,
     placed: &[Placed],
     materials: &mut Materials,
     notes: &mut Vec<String>,
+    progress: &Progress,
 ) -> Result<Triangles, SceneError> {
+    progress.begin(Stage::Meshes, placed.iter().filter(|place| place.node.mesh.is_some()).count());
     let mut all = Triangles::default();
     let (mut skipped, mut vertices) = (0, 0);
     let mut shapes: HashMap<(usize, usize), Known> = HashMap::new();
@@ -46,6 +50,7 @@ pub fn triangles(
         let Some(mesh) = document.root.meshes.get(index) else {
             return Err(document.error(place.label(), format!("it shows mesh {index}, which does not exist; export the file again")));
         };
+        progress.advance();
         for (number, primitive) in mesh.primitives.iter().enumerate() {
             let fail =
                 |reason: String| document.error(format!("{}, primitive {number}", label("mesh", index, mesh.name.as_deref())), reason);
