@@ -11,6 +11,7 @@ mod defaults;
 mod environment;
 mod extensions;
 mod extras;
+mod fuzz;
 mod geometry;
 #[path = "../common/glb.rs"]
 mod glb;
