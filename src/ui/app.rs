@@ -116,7 +116,7 @@ impl App {
                 Some("glb" | "gltf") => {
                     // An environment dropped together with it lights it.
                     let environment = self.state.open.take().and_then(|opening| opening.environment);
-                    self.state.open = Some(Opening { scene: name, environment });
+                    self.state.open = Some(Opening { environment, ..Opening::of(name) });
                 }
                 Some("hdr" | "exr") => scene_menu::surround(&mut self.state, &self.live, path),
                 _ => self.state.tell(true, fill(self.state.say(Text::NotAScene), &[&name])),

@@ -218,7 +218,8 @@ impl Live {
                     state.tell(false, note);
                 }
                 // The same scene in another light keeps its camera.
-                if self.opened().is_none_or(|old| old.scene != opening.scene) || state.camera >= scene.cameras.len() {
+                let same = |old: &Opening| (&old.scene, &old.inside) == (&opening.scene, &opening.inside);
+                if !self.opened().is_some_and(same) || state.camera >= scene.cameras.len() {
                     state.choose_camera(0);
                 }
                 self.shown = Some(Shown { scene: Arc::new(scene), opening });

@@ -81,7 +81,7 @@ fn read(opening: &Opening, progress: &Progress) -> Result<Scene, SceneError> {
     let overrides = Overrides {
         environment: environment.map(|chosen| chosen.source.clone()),
         environment_rotation: environment.map(|chosen| chosen.rotation),
-        scene: None,
+        scene: opening.inside.clone(),
     };
     builtin::open_with(&opening.scene, &overrides, progress)
 }

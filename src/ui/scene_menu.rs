@@ -5,7 +5,7 @@ use super::live::Live;
 use super::state::{ChosenEnvironment, Opening, State};
 use super::text::Text;
 use super::widgets::labelled;
-use crate::scene::builtin;
+use crate::scene::{Scene, builtin};
 use crate::scene::environment::EnvironmentSource;
 use eframe::egui::{ComboBox, DragValue, Key, Label, PopupCloseBehavior, RichText, TextEdit, Ui};
 use std::path::Path;
@@ -37,6 +37,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
         if let Some(scene) = live.scene() {
             ui.separator();
             ui.label(RichText::new(features::sentence(state, scene)).small().weak());
+            scenes_inside(ui, state, live, scene);
         }
         ui.separator();
         if let Some(path) = path_field(ui, state, Text::ScenePath, |state| &mut state.scene_field) {
@@ -71,6 +72,25 @@ fn path_field(ui: &mut Ui, state: &mut State, name: Text, field: impl Fn(&mut St
     });
     let path = field(state).trim();
     (entered.inner && !path.is_empty()).then(|| path.to_owned())
+}
+
+/// The scenes in the file, if there are several.
+fn scenes_inside(ui: &mut Ui, state: &mut State, live: &Live, scene: &Scene) {
+    let (names, Some(opened)) = (&scene.scene_names, live.opened()) else { return };
+    if names.len() < 2 {
+        return;
+    }
+    ui.label(state.say(Text::ScenesInside));
+    for (index, name) in names.iter().enumerate() {
+        let clicked = ui.push_id(index, |ui| ui.selectable_label(scene.scene == Some(index), name).clicked()).inner;
+        if clicked {
+            // Scenes of the same name are told apart by their numbers.
+            let unique = names.iter().filter(|other| *other == name).count() == 1;
+            let inside = Some(if unique { name.clone() } else { index.to_string() });
+            state.open = Some(Opening { inside, ..opened.clone() });
+            ui.close();
+        }
+    }
 }
 
 /// What surrounds the scene: a file to use, and how far it is turned.
@@ -118,6 +138,6 @@ pub fn surround(state: &mut State, live: &Live, picture: &Path) {
 /// Opens the scene again with another environment; `None` = its own.
 fn replace(state: &mut State, live: &Live, environment: Option<ChosenEnvironment>) {
     if let Some(opening) = state.open.as_ref().or(live.wanted()) {
-        state.open = Some(Opening { scene: opening.scene.clone(), environment });
+        state.open = Some(Opening { environment, ..opening.clone() });
     }
 }

@@ -71,6 +71,8 @@ pub struct ChosenEnvironment {
 pub struct Opening {
     /// A built-in name or a path.
     pub scene: String,
+    /// Which of the file's scenes, by name or number; `None` = its default.
+    pub inside: Option<String>,
     /// `None` = the file's own.
     pub environment: Option<ChosenEnvironment>,
 }
@@ -78,7 +80,7 @@ pub struct Opening {
 impl Opening {
     /// A scene as its file has it.
     pub fn of(scene: impl Into<String>) -> Self {
-        Self { scene: scene.into(), environment: None }
+        Self { scene: scene.into(), inside: None, environment: None }
     }
 }
 

@@ -140,6 +140,7 @@ texts! {
     NothingToFocusOn: "That pixel shows nothing to focus on.", "该像素处没有可对焦的物体。";
     // Status bar.
     Loading: "Loading the scene …", "正在载入场景……";
+    ScenesInside: "Scenes in this file", "此文件中的场景";
     LoadingMeshes: "Reading the meshes, {0} of {1} …", "正在读取网格，{0} / {1}……";
     LoadingImages: "Decoding the images, {0} of {1} …", "正在解码图像，{0} / {1}……";
     LoadingHierarchy: "Building the hierarchy over {0} triangles …", "正在为 {0} 个三角形构建层次结构……";

@@ -144,6 +144,19 @@ pub fn glass(name: &str, ior: f64) -> Value {
     })
 }
 
+/// A .png of eight-bit texels, row by row from the top.
+pub fn png([width, height]: [u32; 2], texels: &[[u8; 4]]) -> Vec<u8> {
+    let picture = image::RgbaImage::from_raw(width, height, texels.concat()).unwrap();
+    encoded(&picture.into(), image::ImageFormat::Png)
+}
+
+/// A picture as a file of this format.
+pub fn encoded(picture: &image::DynamicImage, format: image::ImageFormat) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    picture.write_to(&mut bytes, format).unwrap();
+    bytes.into_inner()
+}
+
 /// A .glb in the making.
 #[derive(Clone, Debug)]
 pub struct Glb {
@@ -161,7 +174,7 @@ impl Glb {
             "scene": 0,
             "scenes": [{ "nodes": [], "extras": { "caption": caption } }],
         });
-        for list in ["nodes", "meshes", "materials", "cameras", "accessors", "bufferViews"] {
+        for list in ["nodes", "meshes", "materials", "cameras", "accessors", "bufferViews", "images", "samplers", "textures"] {
             json[list] = json!([]);
         }
         Self { json, bin: Vec::new() }
@@ -241,6 +254,31 @@ impl Glb {
             accessor["max"] = json!(extreme(f32::max));
         }
         self.push("accessors", accessor)
+    }
+
+    /// Adds an accessor of f32 vectors of N numbers.
+    pub fn floats<const N: usize>(&mut self, list: &[[f32; N]]) -> usize {
+        let bytes: Vec<u8> = list.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+        self.accessor(&bytes, json!({ "componentType": 5126, "count": list.len(), "type": format!("VEC{N}") }))
+    }
+
+    /// Adds an accessor of these bytes; `json` says what they are.
+    pub fn accessor(&mut self, bytes: &[u8], mut json: Value) -> usize {
+        json["bufferView"] = json!(self.view(bytes));
+        self.push("accessors", json)
+    }
+
+    /// Gives the first primitive of a mesh one more attribute.
+    pub fn attribute(&mut self, mesh: usize, name: &str, accessor: usize) {
+        self.json["meshes"][mesh]["primitives"][0]["attributes"][name] = json!(accessor);
+    }
+
+    /// Adds a texture of a picture, with this sampler.
+    pub fn texture(&mut self, picture: &[u8], sampler: Value) -> usize {
+        let view = self.view(picture);
+        let source = self.push("images", json!({ "bufferView": view, "mimeType": "image/png" }));
+        let sampler = self.push("samplers", sampler);
+        self.push("textures", json!({ "source": source, "sampler": sampler }))
     }
 
     /// Adds an accessor of indices, as small as they fit.

@@ -5,7 +5,7 @@ use bdpt_explorer::math::{Vec2, Vec3};
 use bdpt_explorer::scene::assemble::PartAttributes;
 use bdpt_explorer::scene::material::TRANSPARENT;
 use bdpt_explorer::scene::texture::{Image, TextureUse, Wrap};
-use bdpt_explorer::scene::{Material, Scene};
+use bdpt_explorer::scene::{Material, NONE, Scene};
 use glam::Vec4;
 use std::sync::Arc;
 
@@ -23,6 +23,16 @@ impl Room {
         let image = parts.images.len() as u32 - 1;
         parts.textures.push(TextureUse { wrap: [Wrap::Repeat, Wrap::Mirror], ..TextureUse::of(image, srgb) });
         parts.textures.len() as u32 - 1
+    }
+
+    /// Gives every triangle so far that has none texture coordinates, as if it were half of a quad.
+    pub fn unwrap_uvs(&mut self) {
+        let parts = self.parts();
+        for (i, triangle) in parts.triangles.iter_mut().enumerate().filter(|(_, triangle)| triangle.attributes == NONE) {
+            let uv = if i % 2 == 0 { [Vec2::ZERO, Vec2::X, Vec2::ONE] } else { [Vec2::ZERO, Vec2::ONE, Vec2::Y] };
+            triangle.attributes = parts.attributes.len() as u32;
+            parts.attributes.push(PartAttributes { uvs: [Some(uv), None], ..PartAttributes::default() });
+        }
     }
 
     /// A quad whose texture coordinates run from 0 to `repeat`, with colours at its corners.

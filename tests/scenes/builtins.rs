@@ -118,5 +118,35 @@ fn flight_helmet_loads() {
     );
     assert!((90_000..100_000).contains(&scene.triangles.len()));
     assert_eq!(scene.cameras[0].name, "framed");
-    assert!(scene.materials.iter().all(|m| m.kind == LAMBERT) && scene.notes.len() == 3, "{:?}", scene.notes);
+    let notes = scene.notes.join(" ");
+    assert!(scene.notes.len() == 3 && notes.contains("The occlusion texture was ignored: 'GlassPlasticMat'"), "{notes}");
+    // All is a coat whose metal comes from textures; each of the 15 images is there once.
+    assert!(scene.materials.iter().all(|m| m.kind == COAT && m.normal_texture != NONE && m.metallic_roughness_texture != NONE));
+    assert!(scene.features.textures && scene.features.normal_maps && scene.features.alpha_blend);
+    let images: std::collections::HashSet<u32> = scene.textures.list.iter().map(|texture| texture.first).collect();
+    assert_eq!((images.len(), scene.textures.list.len()), (15, 15));
+    println!("FlightHelmet: {} texture bytes", scene.textures.bytes());
+    the_files_tangents_are_those_of_its_coordinates(&scene);
+}
+
+/// Compares the two frames that a normal map may have.
+fn the_files_tangents_are_those_of_its_coordinates(scene: &Scene) {
+    let (mut judged, mut aligned, mut same_sign) = (0, 0, 0);
+    for triangle in &scene.triangles {
+        let own = &scene.attributes.list[triangle.attributes as usize];
+        let (t, sign) = scene.attributes.tangents[own.tangents as usize].at(Vec2::splat(1.0 / 3.0));
+        let uvs = &scene.attributes.uvs[own.uvs_0 as usize];
+        let (e1, e2, d1, d2) = (triangle.p1 - triangle.p0, triangle.p2 - triangle.p0, uvs.uv1 - uvs.uv0, uvs.uv2 - uvs.uv0);
+        let det = d1.perp_dot(d2);
+        let derived = (e1 * d2.y - e2 * d1.y) * det.signum();
+        let n = e1.cross(e2).normalize();
+        let cos = (t - n * n.dot(t)).normalize_or_zero().dot(derived.normalize_or_zero());
+        if det != 0.0 && cos.is_finite() && cos != 0.0 {
+            judged += 1;
+            aligned += usize::from(cos > 0.9);
+            same_sign += usize::from(sign == -det.signum());
+        }
+    }
+    println!("FlightHelmet: of {judged} triangles, {aligned} tangents within 26°, {same_sign} of the same handedness");
+    assert!(judged > 90_000 && aligned as f64 > 0.95 * judged as f64 && same_sign as f64 > 0.99 * judged as f64);
 }

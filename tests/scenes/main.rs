@@ -1,13 +1,17 @@
 //! The loader: what each glTF construct becomes, what a file leaves out, and that no bad file does more than make an error.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests may panic")]
 
+mod alpha;
+mod attributes;
 mod bad_input;
 mod builtins;
 mod captions_emitters;
 mod captions_lens;
 mod defaults;
 mod environment;
+mod extensions;
 mod extras;
+mod fuzz;
 mod geometry;
 #[path = "../common/glb.rs"]
 mod glb;
@@ -15,12 +19,17 @@ mod lights;
 mod materials;
 mod rendering;
 mod scale;
+mod scenes_by_name;
 #[path = "../common/skip.rs"]
 mod skip;
+mod tangents;
+mod textures;
 
 use bdpt_explorer::math::{DVec3, Vec2, Vec3};
-use bdpt_explorer::scene::{DIELECTRIC, General, LAMBERT, MIRROR, NONE, Overrides, Ray, Scene, THIN_DIELECTRIC, View, builtin, gltf};
-use glb::{Glb, Shape, emitter, glass, lambert, mirror};
+use bdpt_explorer::scene::{
+    COAT, CONDUCTOR, DIELECTRIC, General, LAMBERT, MIRROR, NONE, Overrides, Ray, Scene, SurfacePoint, THIN_DIELECTRIC, View, builtin, gltf,
+};
+use glb::{Glb, Shape, emitter, encoded, glass, lambert, mirror, png};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -65,6 +74,27 @@ fn says(text: &str, parts: &[&str]) {
     for part in parts {
         assert!(text.contains(part), "'{part}' is missing in: {text}");
     }
+}
+
+/// Texture coordinates of [`SQUARE`]: (0, 0) is its upper left corner, v points down.
+const CORNERS: [[f32; 2]; 4] = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]];
+
+/// [`square`] with texture coordinates; its mesh is number 1.
+fn with_coordinates(material: Value) -> Glb {
+    let mut glb = square(material);
+    let uvs = glb.floats(&CORNERS);
+    glb.attribute(1, "TEXCOORD_0", uvs);
+    glb
+}
+
+/// What the ray from (x, y, 2) along −z meets.
+fn point(scene: &Scene, x: f64, y: f64) -> SurfacePoint {
+    scene.intersect(&Ray { origin: (DVec3::new(x, y, 2.0) - scene.origin).as_vec3(), direction: Vec3::NEG_Z }).unwrap()
+}
+
+#[track_caller]
+fn close(a: Vec3, b: Vec3) {
+    assert!((a - b).length() < 2e-5, "{a} {b}");
 }
 
 /// The material of the first hit from (0, 0, 2) along −z.

@@ -3,7 +3,6 @@
 use super::container::Document;
 use ::gltf::json::accessor::{Accessor, ComponentType, Type};
 use ::gltf::json::validation::Checked;
-use bytemuck::Zeroable;
 use std::ops::Range;
 
 /// More elements than this in an accessor without bytes (all zeros, or sparse) is a slip or an attack.
@@ -88,7 +87,7 @@ impl Document<'_> {
 
     /// The elements `range` (not beyond the count) of an accessor of type `wanted`, the sparse ones replaced; `parts` takes
     /// integers as parts of their largest even if the accessor does not say so.
-    fn read<T: Copy + Zeroable>(
+    fn read<T: Copy>(
         &self,
         index: usize,
         wanted: Type,
@@ -112,7 +111,7 @@ impl Document<'_> {
             None if accessor.count.0 > MAX_IMPLICIT => {
                 return Err(format!("{what} has {} elements but no data; export the file again", accessor.count.0));
             }
-            None => vec![T::zeroed(); range.len()],
+            None => vec![get(&Elements { bytes: &[0; 16], stride: 0, component, normalized }, 0); range.len()],
         };
         if let Some(sparse) = &accessor.sparse {
             let Checked::Valid(index_type) = sparse.indices.component_type else {

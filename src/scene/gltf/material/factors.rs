@@ -58,6 +58,9 @@ impl Factors {
         let f90 = unit(specular.map_or(1.0, |s| s.specular_factor.0), "specular factor")?;
         let f0_scale = clamped(specular.map_or(Vec3::ONE, |s| s.specular_color_factor.0.into()), f32::MAX, "specular colour factor")?;
         let ior = extensions.and_then(|e| e.ior.as_ref()).map_or(1.5, |e| e.ior.0);
+        if !ior.is_finite() {
+            return Err("its index of refraction is not finite; repair the material and export it again".into());
+        }
         if ior != 0.0 && !(1.0..=MAX_IOR).contains(&ior) {
             remark(format!("The index of refraction was clamped to 1…{MAX_IOR}"));
         }
