@@ -5,8 +5,8 @@ use super::live::Live;
 use super::state::{ChosenEnvironment, Opening, State};
 use super::text::Text;
 use super::widgets::labelled;
-use crate::scene::{Scene, builtin};
 use crate::scene::environment::EnvironmentSource;
+use crate::scene::{Scene, builtin};
 use eframe::egui::{ComboBox, DragValue, Key, Label, PopupCloseBehavior, RichText, TextEdit, Ui};
 use std::path::Path;
 

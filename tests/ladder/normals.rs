@@ -50,7 +50,8 @@ fn no_light_leaks_through_walls() {
 /// where it is not 0, both walks can draw it.
 #[test]
 fn only_a_disagreement_of_the_normals_is_black() {
-    let materials = [Material::lambert(Vec3::splat(0.7)), Material::coat(Vec3::splat(0.5), 0.5, 0.2, 1.5), Material::conductor(Vec3::ONE, 0.6)];
+    let materials =
+        [Material::lambert(Vec3::splat(0.7)), Material::coat(Vec3::splat(0.5), 0.5, 0.2, 1.5), Material::conductor(Vec3::ONE, 0.6)];
     let (mut lit, mut black) = (0, 0);
     for i in 0..30_000 {
         let material = &materials[i as usize % 3];
