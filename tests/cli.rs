@@ -101,6 +101,7 @@ fn bad_input_is_one_line_and_status_2_and_leaves_nothing() {
         ("render cornell -o a.exr --heuristic best", "--heuristic"),
         ("render cornell -o a.exr --seed -1", "--seed"),
         ("render cornell -o a.exr --camera nobody", "'nobody'"),
+        ("render cornell -o a.exr --scene nothing", "the scene 'nothing' is not in it; it has '0'"),
         ("render cornell -o a.exr --backend abacus", "--backend"),
         ("render cornell -o a.jpg", ".exr"),
         ("render cornell -o no/such/folder/a.exr", "no/such/folder"),

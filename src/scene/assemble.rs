@@ -46,7 +46,9 @@ impl PartTriangle {
     pub fn relative_to(&self, origin: DVec3) -> Option<([Vec3; 3], Vec3)> {
         let corners = self.corners.map(|p| (p - origin).as_vec3());
         let [p0, p1, p2] = corners;
-        Some((corners, (p1 - p0).cross(p2 - p0).try_normalize()?))
+        let cross = (p1 - p0).cross(p2 - p0);
+        // Where the square is subnormal, the length has lost its digits.
+        (cross.length_squared() >= f32::MIN_POSITIVE).then(|| (corners, cross.normalize()))
     }
 }
 

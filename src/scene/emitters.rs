@@ -2,12 +2,15 @@
 
 use super::attributes::Attributes;
 use super::light::{AREA, ENVIRONMENT, Light};
-use super::material::UNLIT;
+use super::material::{TRANSPARENT, UNLIT};
 use super::{Environment, General, Lights, Material, NONE, Scene, Triangle};
 use crate::math::{Vec2, Vec3, sample_triangle};
 
-/// Points at which the mean of an emissive texture over a triangle is taken: a floor on what is not met keeps it samplable.
+/// The most points at which the mean of an emissive texture over a triangle is taken: a floor on what is not met keeps it
+/// samplable.
 const POINTS: u32 = 64;
+/// The fewest, for triangles on few texels.
+const FEWEST: u32 = 8;
 
 impl Scene {
     /// Collects the emissive triangles, writes each one's index into its `light` field, and adds the other lights.
@@ -43,13 +46,31 @@ impl Scene {
         if (largest * material.emission).max_element() <= 0.0 {
             return None;
         }
-        let points = (0..POINTS).map(|i| {
+        let count = self.points_for(material, attributes);
+        let points = (0..count).map(|i| {
             // A Kronecker sequence: it fills the triangle evenly.
             let u = Vec2::new((0.5 + i as f32 * 0.754_877_7).fract(), (0.5 + i as f32 * 0.569_840_3).fract());
             let b = sample_triangle(u);
-            self.emission_factor::<General>(index, triangle.material, b) * self.surface_point_as::<General>(index, b).look.opacity
+            let a = if material.has(TRANSPARENT) { self.opacity_at(material, triangle.attributes, b) } else { 1.0 };
+            self.emission_factor::<General>(index, triangle.material, b) * a
         });
-        Some(points.sum::<Vec3>() / POINTS as f32)
+        Some(points.sum::<Vec3>() / count as f32)
+    }
+
+    /// At how many points the mean is taken.
+    fn points_for(&self, material: &Material, attributes: &Attributes) -> u32 {
+        if material.emissive_texture == NONE || material.has(TRANSPARENT) {
+            return POINTS;
+        }
+        let texels = self.textures.texels_under(material.emissive_texture, self.emissive_corners(material, attributes));
+        (texels as u32).clamp(FEWEST, POINTS)
+    }
+
+    /// Texture coordinates of the emissive texture at a triangle's corners.
+    fn emissive_corners(&self, material: &Material, attributes: &Attributes) -> [Vec2; 3] {
+        let second = self.textures.list[material.emissive_texture as usize].flags & super::texture::SET_1 != 0;
+        let uvs = if second { attributes.uvs_1 } else { attributes.uvs_0 };
+        self.attributes.uvs.get(uvs as usize).map_or([Vec2::ZERO; 3], |uvs| [uvs.uv0, uvs.uv1, uvs.uv2])
     }
 
     /// A bound on what the textures make of the emission on a triangle.
@@ -57,14 +78,12 @@ impl Scene {
         if material.emissive_texture == NONE || material.has(UNLIT) {
             return Vec3::ONE;
         }
-        let second = self.textures.list[material.emissive_texture as usize].flags & super::texture::SET_1 != 0;
-        let uvs = if second { attributes.uvs_1 } else { attributes.uvs_0 };
-        let corners = self.attributes.uvs.get(uvs as usize).map_or([Vec2::ZERO; 3], |uvs| [uvs.uv0, uvs.uv1, uvs.uv2]);
+        let corners = self.emissive_corners(material, attributes);
         self.textures.largest(material.emissive_texture, corners).truncate()
     }
 
     /// a of a triangle on which nothing varies.
     fn emission_opacity(&self, triangle: &Triangle, material: &Material) -> f32 {
-        if material.has(super::material::TRANSPARENT) { self.opacity_at(material, triangle.attributes, Vec2::ZERO) } else { 1.0 }
+        if material.has(TRANSPARENT) { self.opacity_at(material, triangle.attributes, Vec2::ZERO) } else { 1.0 }
     }
 }

@@ -10,7 +10,7 @@
 use crate::math::{Vec2, Vec3};
 use crate::shared_struct;
 use glam::Vec4;
-use std::sync::LazyLock;
+use std::sync::{LazyLock, OnceLock};
 
 shared_struct! {
     /// One use of an image.
@@ -97,6 +97,8 @@ pub struct Textures {
     pub list: Vec<Texture>,
     /// The texels of all images.
     pub texels: Vec<u32>,
+    /// The largest value of each channel of a texture, once it was asked for.
+    peaks: Vec<OnceLock<Vec4>>,
 }
 
 /// Linear values of the 256 sRGB codes (IEC 61966-2-1).
@@ -136,7 +138,7 @@ impl Textures {
                 _pad1: 0,
             }
         };
-        Self { list: uses.iter().map(texture).collect(), texels }
+        Self { list: uses.iter().map(texture).collect(), texels, peaks: vec![OnceLock::new(); uses.len()] }
     }
 
     /// Bytes that the texels take.
@@ -172,17 +174,26 @@ impl Textures {
         Vec4::new(r, g, b, a) * (1.0 / 255.0)
     }
 
-    /// The largest linear value of each channel that interpolation can give within a box of texture coordinates.
-    pub fn largest(&self, texture: u32, corners: [Vec2; 3]) -> Vec4 {
-        let texture = &self.list[texture as usize];
-        let places = corners.map(|uv| texture.place(uv));
-        let low = places.into_iter().reduce(Vec2::min).unwrap_or_default().floor() - 1.0;
-        let high = places.into_iter().reduce(Vec2::max).unwrap_or_default().floor() + 1.0;
-        let size = Vec2::new(texture.width as f32, texture.height as f32);
-        // More than the whole image holds nothing new.
-        let count = (high - low + 1.0).min(size * 2.0);
-        let all = (0..count.y as u32).flat_map(|y| (0..count.x as u32).map(move |x| Vec2::new(x as f32, y as f32)));
-        all.map(|offset| self.texel(texture, low + offset)).fold(Vec4::ZERO, Vec4::max)
+    /// A bound on the linear value of each channel that interpolation can give within a box of texture coordinates: exact
+    /// for small boxes, the image's largest for others, so that its cost does not grow with the image.
+    pub fn largest(&self, index: u32, corners: [Vec2; 3]) -> Vec4 {
+        const SMALL: f32 = 4096.0;
+        let texture = &self.list[index as usize];
+        let (low, count) = texture.texels_around(corners);
+        if count.x * count.y <= SMALL {
+            let all = (0..count.y as u32).flat_map(|y| (0..count.x as u32).map(move |x| Vec2::new(x as f32, y as f32)));
+            return all.map(|offset| self.texel(texture, low + offset)).fold(Vec4::ZERO, Vec4::max);
+        }
+        *self.peaks[index as usize].get_or_init(|| {
+            let all = (0..texture.height).flat_map(|y| (0..texture.width).map(move |x| Vec2::new(x as f32, y as f32)));
+            all.map(|at| self.texel(texture, at)).fold(Vec4::ZERO, Vec4::max)
+        })
+    }
+
+    /// About how many texels a triangle with these texture coordinates lies on.
+    pub fn texels_under(&self, index: u32, corners: [Vec2; 3]) -> f32 {
+        let (_, count) = self.list[index as usize].texels_around(corners);
+        count.x * count.y
     }
 }
 
@@ -192,6 +203,17 @@ impl Texture {
     pub fn place(&self, uv: Vec2) -> Vec2 {
         let uv = uv.extend(1.0);
         Vec2::new(self.row_u.dot(uv) * self.width as f32, self.row_v.dot(uv) * self.height as f32)
+    }
+}
+
+impl Texture {
+    /// The first column and row of the texels that count around three places, and how many columns and rows those are; what
+    /// repeats is counted twice at most.
+    fn texels_around(&self, corners: [Vec2; 3]) -> (Vec2, Vec2) {
+        let places = corners.map(|uv| self.place(uv));
+        let low = places.into_iter().reduce(Vec2::min).unwrap_or_default().floor() - 1.0;
+        let high = places.into_iter().reduce(Vec2::max).unwrap_or_default().floor() + 1.0;
+        (low, (high - low + 1.0).min(Vec2::new(self.width as f32, self.height as f32) * 2.0))
     }
 }
 

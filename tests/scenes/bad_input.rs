@@ -79,6 +79,12 @@ fn bad_geometry_is_named() {
     says(&replaced("/meshes/1/primitives/0/attributes", json!({})), &[primitive, "no positions"]);
     says(&replaced("/accessors/2/count", json!(5)), &[primitive, "accessor 2 reaches beyond the end of buffer view 2"]);
     says(&replaced("/accessors/2/count", json!(0)), &[primitive, "accessor 2 is empty"]);
+    // The last buffer view ends with the file: no byte follows what is not there.
+    let empty = make(&|glb| {
+        let index = glb.accessor(&[], json!({ "componentType": 5126, "count": 0, "type": "VEC3" }));
+        glb.attribute(1, "POSITION", index);
+    });
+    says(&empty, &[primitive, "is empty"]);
     says(&replaced("/accessors/2/count", json!(u64::MAX)), &[primitive, "reaches beyond"]);
     says(&replaced("/accessors/2/count", json!(3)), &[primitive, "index 3 is out of range, there are 3 positions"]);
     says(&replaced("/accessors/2/type", json!("VEC2")), &[primitive, "not of type Vec3"]);

@@ -134,6 +134,16 @@ fn flat_triangles_are_dropped_and_counted() {
     glb.json["meshes"][1]["primitives"][0]["indices"] = json!(indices);
     let scene = load(&glb);
     assert_eq!((scene.triangles.len(), scene.notes.as_slice()), (4, &["2 triangles without area were dropped.".to_owned()][..]));
+    // So narrow that its normal could not be told.
+    let mut glb = square(lambert("paint", GREY));
+    let narrow = glb.material(lambert("narrow", GREY));
+    let [a, b, c] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, 1e-21, 0.0]];
+    glb.object(
+        "narrow",
+        &Shape { positions: [a, b, c].map(|p| p.map(|x: f64| x as f32)).to_vec(), indices: vec![0, 1, 2], ..Shape::default() },
+        narrow,
+    );
+    assert_eq!(load(&glb).notes, ["1 triangle without area was dropped."]);
     let mut glb = Glb::new("flat");
     let paint = glb.material(lambert("paint", GREY));
     glb.object("line", &Shape::quad([[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]]), paint);

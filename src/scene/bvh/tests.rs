@@ -249,7 +249,7 @@ fn throughput() {
                 continue;
             };
             if let Some(light) = scene.lights.choose(Vec2::new(u[2], u[3])) {
-                let q = scene.lights.point_on(&scene, &scene.lights.list[light as usize], Vec2::new(u[3], u[0]));
+                let q = scene.lights.point_on::<crate::scene::General>(&scene, &scene.lights.list[light as usize], Vec2::new(u[3], u[0]));
                 let w = (q.position - p.position).normalize();
                 let (from, to) = (offset_ray_origin(p.position, p.error, p.n_g, w), offset_ray_origin(q.position, q.error, q.n_g, -w));
                 segments.push(Segment { from, to });

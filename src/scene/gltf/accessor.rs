@@ -102,6 +102,9 @@ impl Document<'_> {
         let (component, normalized) = (component(accessor, index)?, accessor.normalized || parts);
         let size = component.size() * wanted.multiplicity();
         let what = format!("accessor {index}");
+        if accessor.count.0 == 0 {
+            return Err(format!("{what} is empty; export the file again"));
+        }
         let mut values = match accessor.buffer_view {
             Some(view) => {
                 let (bytes, stride) = self.span(&what, view.value(), accessor.byte_offset.unwrap_or_default().0, accessor.count.0, size)?;
@@ -132,7 +135,7 @@ impl Document<'_> {
                 }
             }
         }
-        if accessor.count.0 == 0 { Err(format!("{what} is empty; export the file again")) } else { Ok(values) }
+        Ok(values)
     }
 
     /// The bytes of `count` elements of `size` bytes in a buffer view, from `offset` in it, and their distance.
