@@ -67,6 +67,24 @@ fn compare(python: &str, scene: &Path, mode: &str, spp: &str) -> Command {
     command
 }
 
+/// FlightHelmet with all its textures, if it lies beside the repository: against Mitsuba's `principled`, and against our
+/// formulas in Mitsuba, where every block must agree.
+fn helmet(python: &str, folder: &Path) -> Vec<String> {
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/gltf/FlightHelmet/FlightHelmet.gltf");
+    if !model.exists() {
+        skip::skipped("pictures_agree_with_mitsuba, FlightHelmet", "the model is not beside the repository");
+        return Vec::new();
+    }
+    let scene = folder.join("helmet.glb");
+    let mut failures: Vec<String> = expect(0, script(python, "helmet.py").arg(model).arg(&scene)).err().into_iter().collect();
+    for more in [&["--materials", "principled"][..], &["--materials", "ours"]] {
+        let mut command = script(python, "blocks.py");
+        command.arg(&scene).args(["--program", env!("CARGO_BIN_EXE_bdpt-explorer"), "--seeds", "2", "--spp", "32"]).args(more);
+        failures.extend(expect(0, &mut command).err());
+    }
+    failures
+}
+
 // One test, not one for each scene: they would compete for the cores.
 #[test]
 fn pictures_agree_with_mitsuba() {
@@ -91,6 +109,7 @@ fn pictures_agree_with_mitsuba() {
         let [scene, mode, spp] = line.split(' ').collect::<Vec<_>>()[..] else { panic!("{line}") };
         failures.extend(expect(0, &mut compare(&python, &folder.path().join(scene), mode, spp)).err());
     }
+    failures.extend(helmet(&python, folder.path()));
     // An error of 2 % must not pass, nor one of 15 % where the material is only nearly ours.
     for (scene, mode, scale) in [("area.glb", "exact", "1.02"), ("rough_metal.glb", "approximate", "1.15")] {
         let wrong = expect(1, compare(&python, &folder.path().join(scene), mode, "64").args(["--scale", scale]));
