@@ -5,7 +5,7 @@
 //! `python3`, and an LLVM of 17 or newer. Without them the test says that it was skipped, or fails if
 //! `BDPT_REQUIRE_MITSUBA=1`.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use std::path::Path;
 use std::process::{Command, Output};
