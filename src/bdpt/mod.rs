@@ -13,6 +13,7 @@
 
 pub mod connect;
 pub mod crossing;
+pub mod ends;
 pub mod existence;
 pub mod mis;
 pub mod path;

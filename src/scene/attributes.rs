@@ -3,6 +3,7 @@
 //! Each kind is a flat array; a triangle names its entries through one record, and a flat grey triangle has none at all.
 
 use super::NONE;
+use super::assemble::{PartAttributes, PartTriangle};
 use crate::math::{Vec2, Vec3};
 use crate::shared_struct;
 use glam::Vec4;
@@ -154,4 +155,53 @@ impl Colors {
     pub fn at(&self, b: Vec2) -> Vec4 {
         interpolate!(b, self.c0, self.c1, self.c2)
     }
+}
+
+impl Arrays {
+    /// Adds what a triangle has beyond its corners; its index in the list, [`NONE`] if that is nothing.
+    pub(super) fn add(&mut self, part: &PartTriangle, n_g: Vec3, own: Option<&PartAttributes>) -> u32 {
+        let mut entry = Attributes::PLAIN;
+        let sides = part.normals.map(|n| shading_normals(n, n_g, part));
+        if let Some((corners, true, _)) = sides {
+            entry.normals = push(&mut self.normals, corners);
+        }
+        if let Some(own) = own {
+            let uvs = own.uvs.map(|set| set.map_or(NONE, |[uv0, uv1, uv2]| push(&mut self.uvs, Uvs { uv0, uv1, uv2 })));
+            [entry.uvs_0, entry.uvs_1] = uvs;
+            entry.colors = own.colors.map_or(NONE, |[c0, c1, c2]| push(&mut self.colors, Colors { c0, c1, c2 }));
+            if let (Some([t0, t1, t2]), Some((_, _, turned))) = (own.tangents, sides) {
+                // A normal that went to the other side takes the bitangent along.
+                let sign = if turned { -t0.w } else { t0.w };
+                let [t0, t1, t2] = [t0, t1, t2].map(Vec4::truncate);
+                entry.tangents = push(&mut self.tangents, Tangents { t0, sign: 1.0f32.copysign(sign), t1, _pad0: 0, t2, _pad1: 0 });
+            }
+        }
+        if entry == Attributes::PLAIN { NONE } else { push(&mut self.list, entry) }
+    }
+}
+
+/// Appends an item; its index.
+fn push<T>(list: &mut Vec<T>, item: T) -> u32 {
+    list.push(item);
+    list.len() as u32 - 1
+}
+
+/// The corners' normals, unit and on the side of `n_g`; whether any differs from the geometric normal; whether the first one
+/// had to be turned around.
+fn shading_normals(corners: [Vec3; 3], n_g: Vec3, part: &PartTriangle) -> (Normals, bool, bool) {
+    /// Deviations below this (radians) are the file's rounding, not a wish.
+    const SAME: f32 = 5e-6;
+    let [p0, p1, p2] = part.corners;
+    let exact = (p1 - p0).cross(p2 - p0).normalize().as_vec3();
+    let turned = corners[0].dot(n_g) < 0.0;
+    let mut differs = false;
+    let [n0, n1, n2] = corners.map(|n| {
+        let n = n.try_normalize().unwrap_or(n_g);
+        let cos = n.dot(n_g);
+        // A normal in the triangle's own plane belongs to no side.
+        let n = if cos.abs() < 1e-4 { n_g } else { n * cos.signum() };
+        differs |= (n - exact).length() > SAME && n != n_g;
+        n
+    });
+    (Normals { n0, _pad0: 0, n1, _pad1: 0, n2, _pad2: 0 }, differs, turned)
 }

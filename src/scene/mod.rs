@@ -124,10 +124,11 @@ impl Scene {
         Some(self.surface_point(&hit))
     }
 
-    /// How far away, along `axis`, the first hit of a ray is, m; `None` if there is none in front.
+    /// How far away, along `axis`, what a ray shows is, m: the first surface that is there more than not. `None` if there is
+    /// none in front.
     pub fn depth_along(&self, ray: &Ray, axis: Vec3) -> Option<f32> {
-        let seen = self.intersect(ray)?;
-        Some((seen.position - ray.origin).dot(axis)).filter(|depth| *depth > 0.0)
+        let hit = self.bvh.closest_hit_where(&self.triangles, ray, |hit| self.opacity(hit) >= 0.5)?;
+        Some((self.surface_point(&hit).position - ray.origin).dot(axis)).filter(|depth| *depth > 0.0)
     }
 
     /// What blocks a segment first, seen from its start: the first surface that lets nothing through.
