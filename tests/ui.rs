@@ -17,6 +17,8 @@ use std::time::{Duration, Instant};
 
 #[path = "ui/existence.rs"]
 mod existence;
+#[path = "common/glb.rs"]
+mod glb;
 #[path = "ui/layout.rs"]
 mod layout;
 #[path = "ui/lens.rs"]
@@ -29,6 +31,8 @@ mod scenes;
 mod screenshots;
 #[path = "common/skip.rs"]
 mod skip;
+#[path = "ui/surfaces.rs"]
+mod surfaces;
 #[path = "ui/surroundings.rs"]
 mod surroundings;
 

@@ -206,14 +206,15 @@ impl<F: Shape> Context<'_, F> {
             *rays += 1;
             let origin = offset_ray_origin(from.position, from.error, from.n_g, step.direction);
             let draws = || Draws(id.words(first_block + BLOCK_ALPHA + last as u32));
-            let Some(point) = self.scene.walk::<F>(&Ray { origin, direction: step.direction }, draws) else {
+            let met = self.scene.walk::<F>(&Ray { origin, direction: step.direction }, draws);
+            let Some(point) = met.point else {
                 if let (TransportMode::Radiance, Some(light)) = (mode, self.scene.lights.environment_index()) {
-                    let vertex = self.arrive_at_infinity(from, light, step);
+                    let vertex = self.arrive_at_infinity(from, light, step, met.passed);
                     vertices.push(vertex);
                 }
                 return End::Escaped;
             };
-            let Some(mut vertex) = self.arrive(from, &point, step, mode) else { return End::Absorbed };
+            let Some(mut vertex) = self.arrive(from, &point, step, (mode, met.passed)) else { return End::Absorbed };
             vertex.survival = self.survival(&vertex);
 
             if vertices.len() + 1 == max_vertices {
@@ -247,11 +248,12 @@ impl<F: Shape> Context<'_, F> {
     }
     /// The vertex at `point`, reached from `from`; `None` if the two coincide or the edge lies in a surface's plane.
     #[inline(always)]
-    fn arrive(&self, from: &Vertex, point: &SurfacePoint, step: &Step, mode: TransportMode) -> Option<Vertex> {
+    fn arrive(&self, from: &Vertex, point: &SurfacePoint, step: &Step, (mode, passed): (TransportMode, bool)) -> Option<Vertex> {
         let vertex = Vertex::on(point, ON_SURFACE);
         let (w, geometry) = from.edge_to(&vertex);
         let geometry = geometry
             * match mode {
+                _ if !passed => 1.0,
                 TransportMode::Importance => self.seen_through(from, &vertex, w),
                 TransportMode::Radiance => self.seen_through(&vertex, from, -w),
             };
@@ -279,9 +281,10 @@ impl<F: Shape> Context<'_, F> {
 
     /// The environment's vertex at the end of an eye subpath.
     #[inline(never)]
-    fn arrive_at_infinity(&self, from: &Vertex, light: u32, step: &Step) -> Vertex {
+    fn arrive_at_infinity(&self, from: &Vertex, light: u32, step: &Step, passed: bool) -> Vertex {
         let towards = Vertex { flags: AT_INFINITY, ..Vertex::on(&free_point(from.position, -step.direction), 0) };
-        let geometry = from.n_g.dot(step.direction).abs() * self.seen_through(&towards, from, -step.direction);
+        let v = if passed { self.seen_through(&towards, from, -step.direction) } else { 1.0 };
+        let geometry = from.n_g.dot(step.direction).abs() * v;
         let position = from.position + step.direction * self.view.sphere.beyond(from.position);
         Vertex {
             position,

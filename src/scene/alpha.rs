@@ -12,6 +12,7 @@ use super::material::TRANSPARENT;
 use super::{Hit, Scene, Shape, SurfacePoint};
 use crate::math::Vec2;
 use crate::rng::{pcg4d, unit_f32};
+use std::cell::Cell;
 
 /// The draws of one segment of a walk: one for each primitive.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +27,15 @@ impl Draws {
     }
 }
 
+/// What a segment of a walk met.
+#[derive(Clone, Copy, Debug)]
+pub struct Met {
+    /// The surface that was accepted, if any was.
+    pub point: Option<SurfacePoint>,
+    /// Was anything rejected that might have been there? Only then can V be below 1.
+    pub passed: bool,
+}
+
 impl Scene {
     /// a at a hit.
     #[inline]
@@ -37,17 +47,22 @@ impl Scene {
 
     /// The first hit that the draws accept; with `Shape::ALPHA` off, the first hit.
     #[inline(always)]
-    pub fn walk<F: Shape>(&self, ray: &Ray, draws: impl FnOnce() -> Draws) -> Option<SurfacePoint> {
-        let hit = if F::ALPHA { self.accepted(ray, draws())? } else { self.bvh.closest_hit(&self.triangles, ray)? };
-        Some(self.surface_point_as::<F>(hit.triangle, Vec2::new(hit.b1, hit.b2)))
+    pub fn walk<F: Shape>(&self, ray: &Ray, draws: impl FnOnce() -> Draws) -> Met {
+        let (hit, passed) = if F::ALPHA { self.accepted(ray, draws()) } else { (self.bvh.closest_hit(&self.triangles, ray), false) };
+        let point = hit.map(|hit| self.surface_point_as::<F>(hit.triangle, Vec2::new(hit.b1, hit.b2)));
+        Met { point, passed }
     }
 
     #[inline(never)]
-    fn accepted(&self, ray: &Ray, draws: Draws) -> Option<Hit> {
-        self.bvh.closest_hit_where(&self.triangles, ray, |hit| {
+    fn accepted(&self, ray: &Ray, draws: Draws) -> (Option<Hit>, bool) {
+        let passed = Cell::new(false);
+        let hit = self.bvh.closest_hit_where(&self.triangles, ray, |hit| {
             let a = self.opacity(hit);
-            a >= 1.0 || draws.number(hit.triangle) < a
-        })
+            let accepted = a >= 1.0 || draws.number(hit.triangle) < a;
+            passed.set(passed.get() || (!accepted && a > 0.0));
+            accepted
+        });
+        (hit, passed.get())
     }
 
     /// V of the open segment between two points.

@@ -26,11 +26,15 @@ const TABLE: [(&str, Text); 18] = [
     ("alpha blend", Text::FeatureAlphaBlend),
 ];
 
-/// How many triangles a scene has and which features are in use, in a sentence.
+/// How many triangles a scene has, which features are in use, and what its textures take, in a line or two.
 pub fn sentence(state: &State, scene: &Scene) -> String {
     let word = |name: &&'static str| TABLE.iter().find(|(key, _)| key == name).map_or(*name, |(_, text)| state.say(*text));
     let names: Vec<&str> = scene.features.names().iter().map(word).collect();
-    fill(state.say(Text::SceneNeeds), &[&scene.triangles.len().to_string(), &names.join(", ")])
+    let needs = fill(state.say(Text::SceneNeeds), &[&scene.triangles.len().to_string(), &names.join(", ")]);
+    match scene.textures.bytes() {
+        0 => needs,
+        bytes => format!("{needs}\n{}", fill(state.say(Text::SceneTextures), &[&format!("{:.1}", bytes as f64 / 1e6)])),
+    }
 }
 
 #[cfg(test)]

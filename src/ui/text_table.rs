@@ -141,9 +141,9 @@ texts! {
     // Status bar.
     Loading: "Loading the scene …", "正在载入场景……";
     ScenesInside: "Scenes in this file", "此文件中的场景";
-    LoadingMeshes: "Reading the meshes, {0} of {1} …", "正在读取网格，{0} / {1}……";
-    LoadingImages: "Decoding the images, {0} of {1} …", "正在解码图像，{0} / {1}……";
-    LoadingHierarchy: "Building the hierarchy over {0} triangles …", "正在为 {0} 个三角形构建层次结构……";
+    LoadingMeshes: "Reading the meshes, {} of {} …", "正在读取网格，{} / {}……";
+    LoadingImages: "Decoding the images, {} of {} …", "正在解码图像，{} / {}……";
+    LoadingHierarchy: "Building the hierarchy over {} triangles …", "正在为 {} 个三角形构建层次结构……";
     Waiting: "Waiting for the first picture …", "正在等待第一幅图像……";
     Backend: "{} · {} threads", "{} · {} 线程";
     HelpBackend: "What renders the image", "由谁渲染图像";
@@ -317,7 +317,8 @@ texts! {
     KeyReset: "Reset the view: fit, exposure 0, sRGB", "重置视图：适应、曝光 0、sRGB";
     KeyPause: "Pause or resume rendering", "暂停或继续渲染";
     KeyHelp: "This list of keys", "显示此快捷键列表";
-    SceneNeeds: "{0} triangles; needs: {1}", "{0} 个三角形；需要：{1}";
+    SceneNeeds: "{} triangles; needs: {}", "{} 个三角形；需要：{}";
+    SceneTextures: "Textures: {} MB", "纹理：{} MB";
     FeatureAreaLights: "area lights", "面光源";
     FeatureTwoSided: "two-sided emitters", "双面发光体";
     FeaturePoint: "point lights", "点光源";

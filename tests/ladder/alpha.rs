@@ -133,7 +133,7 @@ fn what_a_walk_accepts_does_not_depend_on_the_traversal() {
         let origin = Vec3::new(u[0] - 0.5, 0.8 * u[1], u[2] + 1.5);
         let direction = (Vec3::new(u[3] - 0.5, 0.3 - u[0], u[1] - 0.5) - origin).normalize();
         let draws = Draws([i, 7, 9, 11]);
-        let accepted = scene.walk::<General>(&Ray { origin, direction }, || draws);
+        let accepted = scene.walk::<General>(&Ray { origin, direction }, || draws).point;
         // By brute force: of all hits in order of distance, the first whose own number is below its alpha.
         let mut hits = Vec::new();
         let _ = scene.bvh.any_hit_to_infinity(&scene.triangles, &Ray { origin, direction }, |hit| {

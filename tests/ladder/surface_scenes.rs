@@ -25,11 +25,12 @@ impl Room {
         parts.textures.len() as u32 - 1
     }
 
-    /// Gives every triangle so far that has none texture coordinates, as if it were half of a quad.
-    pub fn unwrap_uvs(&mut self) {
+    /// Gives every triangle so far that has none texture coordinates, as if it were half of a quad, `repeat` images wide.
+    pub fn unwrap_uvs(&mut self, repeat: f32) {
         let parts = self.parts();
         for (i, triangle) in parts.triangles.iter_mut().enumerate().filter(|(_, triangle)| triangle.attributes == NONE) {
             let uv = if i % 2 == 0 { [Vec2::ZERO, Vec2::X, Vec2::ONE] } else { [Vec2::ZERO, Vec2::ONE, Vec2::Y] };
+            let uv = uv.map(|uv| uv * repeat);
             triangle.attributes = parts.attributes.len() as u32;
             parts.attributes.push(PartAttributes { uvs: [Some(uv), None], ..PartAttributes::default() });
         }
@@ -178,7 +179,7 @@ pub fn furnace_with_veils(radiance: f32, albedo: f32, lens: bool) -> Arc<Scene> 
     let sheets = [0.2, 0.5, 0.8].map(|a| room.material(veil(glow, a)));
     room.cuboid([-1.0; 3], [1.0, 1.2, 1.4], true, [wall; 6]);
     room.quad([-0.8, -0.7, -0.5], [1.6, 0.0, 0.1], [0.0, 1.5, 0.2], sheets[0]);
-    room.quad([-0.7, -0.3, -0.8], [0.0, 0.1, 1.9], [1.5, 0.0, 0.0], sheets[1]);
+    room.quad([-0.7, -0.6, -0.8], [0.0, 0.1, 1.9], [1.5, 0.0, 0.0], sheets[1]);
     room.quad([0.5, -0.8, -0.7], [0.0, 1.6, 0.0], [0.1, 0.0, 1.8], sheets[2]);
     room.camera([0.1, 0.2, 0.3], [1.0, 0.3, -0.4], 70.0);
     if lens {

@@ -136,27 +136,29 @@ fn nothing_reflects_more_than_arrives() {
     assert!(khronos > 1.4, "{khronos}");
 }
 
-/// ∫ f |cos| over the hemisphere for light from an angle of this cosine, the mean of the channels.
+/// ∫ f |cos| over the hemisphere for light from an angle of this cosine, the mean of the channels. The microfacets are those
+/// of a metal of the mixed reflectance, by its own draws; the rest of f is smooth. (F₉₀ must be 1, or there is no coat at all.)
 fn albedo(material: &Material, cos: f64) -> f64 {
-    let (look, metal) = (Look::of(material), Material::conductor(Vec3::ONE, material.roughness));
-    let (bsdf, metal_look) = (Bsdf::new(Vec3::Z, Vec3::Z, material, &look), Look::of(&metal));
+    const SIDE: u32 = 100;
+    let f0 = material.color * material.metallic + material.f0 * (1.0 - material.metallic);
+    let metal = Material::conductor(f0, material.roughness);
+    let (look, metal_look) = (Look::of(material), Look::of(&metal));
+    let (all, metal) = (Bsdf::new(Vec3::Z, Vec3::Z, material, &look), Bsdf::new(Vec3::Z, Vec3::Z, &metal, &metal_look));
+    let coated = material.f90 > 0.0;
     let w_in = Vec3::new((1.0 - cos * cos).sqrt() as f32, 0.0, cos as f32);
-    // The share q of the microfacets in the draws, from the density of one direction: p = q p_metal + (1 − q)/π.
-    let mirrored = Vec3::new(-w_in.x, 0.0, w_in.z);
-    let pdf = |bsdf: &Bsdf| f64::from(bsdf.pdf_psa(w_in, mirrored, TransportMode::Radiance));
-    let p_metal = pdf(&Bsdf::new(Vec3::Z, Vec3::Z, &metal, &metal_look));
-    let q = (pdf(&bsdf) - 1.0 / PI) / (p_metal - 1.0 / PI);
-    // By the surface's own draws, those of either lobe apart: f cos/p has little variance, a regular grid of numbers will do.
-    const SIDE: u32 = 128;
-    let mut sum = 0.0;
-    for (component, share) in [(0.0, q), (1.0f32.next_down(), 1.0 - q)].into_iter().filter(|(_, share)| *share > 1e-4) {
-        for i in 0..SIDE * SIDE {
+    let mean = |f: Vec3| f64::from(f.element_sum()) / 3.0;
+    let sum: f64 = (0..SIDE * SIDE)
+        .map(|i| {
             let u = Vec2::new((i % SIDE) as f32 + 0.5, (i / SIDE) as f32 + 0.5) / SIDE as f32;
-            if let Some(s) = bsdf.sample(w_in, TransportMode::Radiance, component, u) {
-                sum += share * f64::from(s.f.element_sum()) / 3.0 / f64::from(s.pdf_fwd_psa);
-            }
-        }
-    }
+            // A grid in the cosine, in which the base is a polynomial: ∫ f cos dω = ∫∫ f cos d(cos) dφ.
+            let (sin, turn) = ((1.0 - u.x * u.x).sqrt(), u.y * std::f32::consts::TAU);
+            let w = Vec3::new(sin * turn.cos(), sin * turn.sin(), u.x);
+            let microfacets = if coated { metal.eval(w_in, w) } else { Vec3::ZERO };
+            let base = mean(all.eval(w_in, w) - microfacets) * 2.0 * PI * f64::from(u.x);
+            let drawn = if coated { metal.sample(w_in, TransportMode::Radiance, 0.0, u) } else { None };
+            base + drawn.map_or(0.0, |s| mean(s.f) / f64::from(s.pdf_fwd_psa))
+        })
+        .sum();
     sum / f64::from(SIDE * SIDE)
 }
 

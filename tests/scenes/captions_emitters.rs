@@ -6,7 +6,7 @@ use bdpt_explorer::engine::{self, Job};
 use bdpt_explorer::math::{Vec2, Vec3};
 use bdpt_explorer::scene::environment::EnvironmentSource;
 use bdpt_explorer::scene::light::SPOT;
-use bdpt_explorer::scene::{Overrides, builtin};
+use bdpt_explorer::scene::{Overrides, Progress, builtin};
 use std::collections::BTreeMap;
 use std::f32::consts::PI;
 use std::sync::Arc;
@@ -110,7 +110,7 @@ fn the_sun_of_sunlit_room_shines_on_the_floor_where_the_window_lets_it() {
     // Without the sky, paths of two edges are the sun's patch alone.
     let night = Overrides { environment: Some(EnvironmentSource::Constant(Vec3::ZERO)), ..Overrides::default() };
     let base = job("sunlit-room", SIDE, 2);
-    let job = Job { scene: Arc::new(builtin::open_with("sunlit-room", &night, &Default::default()).unwrap()), ..base };
+    let job = Job { scene: Arc::new(builtin::open_with("sunlit-room", &night, &Progress::default()).unwrap()), ..base };
     let (scene, view) = (&job.scene, job.view());
     let image = rendered(&job, 32).image();
     let (mut lit, mut dark) = (0, 0);

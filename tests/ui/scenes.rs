@@ -2,6 +2,8 @@
 
 use bdpt_explorer::math::{DVec3, Vec3};
 use bdpt_explorer::scene::assemble::{PartCamera, PartLight, PartTriangle, Parts};
+use bdpt_explorer::scene::material::TRANSPARENT;
+use bdpt_explorer::scene::texture::{Image, TextureUse};
 use bdpt_explorer::scene::{Environment, Material, NONE, Scene};
 use std::sync::Arc;
 
@@ -45,6 +47,28 @@ pub fn point_and_mirror() -> Arc<Scene> {
     let mut parts = stage("point and mirror", Material::mirror(Vec3::splat(0.9)));
     let light = PartLight::Point { position: DVec3::new(0.7, 1.4, 0.4), intensity: Vec3::splat(2.0) };
     parts.lights.push(("bulb".into(), light));
+    build(parts)
+}
+
+/// A coated box that is only half there, before a textured wall, under a point light.
+pub fn veiled() -> Arc<Scene> {
+    let coat = Material::coat(Vec3::new(0.6, 0.3, 0.2), 0.5, 0.25, 1.5);
+    let mut parts = stage("veiled", Material { opacity: 0.5, flags: TRANSPARENT, ..coat });
+    parts.images.push(Image { size: [2, 2], texels: vec![0xffff_ffff, 0xff80_8080, 0xff80_8080, 0xffff_ffff] });
+    parts.textures.push(TextureUse::of(0, true));
+    parts.materials[0].1 = Material { base_color_texture: 0, ..parts.materials[0].1 }.finished();
+    let light = PartLight::Point { position: DVec3::new(0.7, 1.4, 1.4), intensity: Vec3::splat(2.0) };
+    parts.lights.push(("bulb".into(), light));
+    // A lamp behind the box, seen through it.
+    parts.materials.push(("lamp".into(), Material { emission: Vec3::splat(2.0), ..Material::lambert(Vec3::splat(0.5)) }));
+    let (p, u, v) = (DVec3::new(-0.7, 0.2, -1.2), DVec3::X * 0.5, DVec3::Y * 0.5);
+    for corners in [[p, p + u, p + u + v], [p, p + u + v, p + v]] {
+        parts.triangles.push(PartTriangle { corners, normals: None, material: 2, attributes: NONE });
+    }
+    let back = p + DVec3::Z * 0.1;
+    for corners in [[back, back + u, back + u + v], [back, back + u + v, back + v]] {
+        parts.triangles.push(PartTriangle { corners, normals: None, material: 1, attributes: NONE });
+    }
     build(parts)
 }
 
