@@ -42,10 +42,6 @@ impl Scene {
             return Some(Vec3::splat(self.emission_opacity(triangle, material)));
         }
         let attributes = &self.attributes.list[triangle.attributes as usize];
-        let largest = self.largest_emission(material, attributes);
-        if (largest * material.emission).max_element() <= 0.0 {
-            return None;
-        }
         let count = self.points_for(material, attributes);
         let points = (0..count).map(|i| {
             // A Kronecker sequence: it fills the triangle evenly.
@@ -54,7 +50,9 @@ impl Scene {
             let a = if material.has(TRANSPARENT) { self.opacity_at(material, triangle.attributes, b) } else { 1.0 };
             self.emission_factor::<General>(index, triangle.material, b) * a
         });
-        Some(points.sum::<Vec3>() / count as f32)
+        let mean = points.sum::<Vec3>() / count as f32;
+        let somewhere = |factor: Vec3| (factor * material.emission).max_element() > 0.0;
+        (somewhere(mean) || somewhere(self.largest_emission(material, attributes))).then_some(mean)
     }
 
     /// At how many points the mean is taken.

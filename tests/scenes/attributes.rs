@@ -99,6 +99,17 @@ fn texture_coordinates_of_every_type() {
 }
 
 #[test]
+fn coordinates_may_be_far_away() {
+    let mut glb = gradient();
+    for far in [1e30f32, -3e38] {
+        let uvs = glb.floats(&CORNERS.map(|[u, v]| [u * far, v + far]));
+        glb.attribute(1, "TEXCOORD_0", uvs);
+        let color = point(&load(&glb), 0.1, 0.1).look.color;
+        assert!(color.is_finite() && color.max_element() <= 1.0, "{color}");
+    }
+}
+
+#[test]
 fn without_coordinates_a_texture_shows_one_place_and_that_is_told() {
     let mut glb = gradient();
     glb.json["meshes"][1]["primitives"][0]["attributes"].as_object_mut().unwrap().remove("TEXCOORD_0");

@@ -251,11 +251,13 @@ fn bad_textures_are_named() {
     let crc = crc32(&huge[12..29]).to_be_bytes();
     huge[29..33].copy_from_slice(&crc);
     says(&with(huge), &["image 0 'bark' has 65536×65536 texels, 1 to 16384 a side can be read"]);
-    let transform = json!({ "index": 0, "extensions": { "KHR_texture_transform": { "scale": [1e39, 1.0] } } });
-    says(
-        &replaced("/materials/1/pbrMetallicRoughness/baseColorTexture", transform),
-        &[material, "its KHR_texture_transform is not finite"],
-    );
+    for scale in [1e39, -2e9] {
+        let transform = json!({ "index": 0, "extensions": { "KHR_texture_transform": { "scale": [scale, 1.0] } } });
+        says(
+            &replaced("/materials/1/pbrMetallicRoughness/baseColorTexture", transform),
+            &[material, "its KHR_texture_transform is not finite or above 1e9"],
+        );
+    }
     says(
         &after(&|glb| glb.json["materials"][1]["alphaMode"] = json!("GLASS")),
         &["material 1 'paint': its alphaMode is none of OPAQUE, MASK and BLEND"],

@@ -11,6 +11,9 @@ use std::collections::HashMap;
 use std::collections::HashSet;
 use std::ops::Range;
 
+/// Texture coordinates end here: farther away f32 has long lost the texels, and their products must stay finite.
+const FARTHEST: Vec2 = Vec2::splat(1e9);
+
 /// Corners and triangles.
 pub struct Shape {
     /// Positions of the vertices.
@@ -99,7 +102,7 @@ impl Shape {
                 Some(accessor) => {
                     same_count(document, accessor, self.count, "texture coordinates")?;
                     let list = document.vectors::<2>(accessor, &self.range).map_err(|reason| named("texture coordinates") + &reason)?;
-                    list.into_iter().map(Vec2::from_array).collect()
+                    list.into_iter().map(|uv| Vec2::from_array(uv).clamp(-FARTHEST, FARTHEST)).collect()
                 }
             };
             *uvs = Some(list);

@@ -19,6 +19,8 @@ use std::collections::hash_map::Entry;
 
 /// Extensions that hold a texture's image in a format of their own.
 const FOREIGN: [&str; 4] = ["KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds"];
+/// Largest number in a transform of texture coordinates.
+const LARGEST: f32 = 1e9;
 /// "No image" in gltf's own words.
 const NO_SOURCE: usize = u32::MAX as usize;
 
@@ -55,10 +57,10 @@ impl Reference {
         let (sin, cos) = f64::from(rotation.0).sin_cos();
         let ([su, sv], [ou, ov]) = (scale.0.map(f64::from), offset.0.map(f64::from));
         let rows = [[cos * su, sin * sv, ou], [-sin * su, cos * sv, ov]].map(|row| Vec3::from_array(row.map(|x| x as f32)));
-        if rows.iter().all(|row| row.is_finite()) {
+        if rows.iter().all(|row| row.abs().max_element() <= LARGEST) {
             Ok(rows)
         } else {
-            Err("its KHR_texture_transform is not finite; repair the material and export it again".into())
+            Err(format!("its KHR_texture_transform is not finite or above {LARGEST:.0e}; repair the material and export it again"))
         }
     }
 }
