@@ -4,8 +4,16 @@
 
 #[path = "assets/emitters.rs"]
 mod emitters;
+#[path = "assets/foliage.rs"]
+mod foliage;
 #[path = "common/glb.rs"]
 mod glb;
+#[path = "assets/glossy.rs"]
+mod glossy;
+#[path = "assets/pictures.rs"]
+mod pictures;
+#[path = "assets/relief.rs"]
+mod relief;
 #[path = "assets/rooms.rs"]
 mod rooms;
 
@@ -142,6 +150,10 @@ fn committed_assets_equal_their_descriptions() {
         ("point-mirror", rooms::point_mirror()),
         ("sunlit-room", rooms::sunlit_room()),
         ("sphere-lights", emitters::sphere_lights()),
+        ("rough-metal", glossy::rough_metal()),
+        ("glass-caustic", glossy::glass_caustic()),
+        ("foliage", foliage::foliage()),
+        ("normal-map", relief::normal_map()),
     ];
     for (name, scene) in scenes {
         let (path, bytes) = (folder.join(name).with_extension("glb"), scene.bytes());

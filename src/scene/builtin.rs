@@ -15,7 +15,7 @@ pub struct Builtin {
 }
 
 /// The table of built-in scenes.
-static SCENES: [Builtin; 9] = [
+static SCENES: [Builtin; 13] = [
     Builtin {
         name: "cornell",
         teaches: "The classic box: every strategy works somewhere, none works everywhere.",
@@ -60,6 +60,26 @@ static SCENES: [Builtin; 9] = [
         name: "sphere-lights",
         teaches: "Four lamps of the same power from tiny to huge: a path tracer finds the tiny one by next event, the huge one by running into it.",
         bytes: include_bytes!("../../assets/sphere-lights.glb"),
+    },
+    Builtin {
+        name: "rough-metal",
+        teaches: "Lamps in metal and lacquer, smooth to rough: next event finds them for rough balls, running into them (s = 0) for smooth ones.",
+        bytes: include_bytes!("../../assets/rough-metal.glb"),
+    },
+    Builtin {
+        name: "glass-caustic",
+        teaches: "Glass gathers a small lamp's light: only light joined to the lens (s ≥ 3, t = 1) shows the caustics, next event finds none of it.",
+        bytes: include_bytes!("../../assets/glass-caustic.glb"),
+    },
+    Builtin {
+        name: "foliage",
+        teaches: "Leaves with holes and a cloth that is half there: paths pass it with the probability 1 − α, connections multiply 1 − α, and both make the same half shadow.",
+        bytes: include_bytes!("../../assets/foliage.glb"),
+    },
+    Builtin {
+        name: "normal-map",
+        teaches: "A flat wall, half of it with a normal map: the shading normal paints the relief, and light paths and eye paths still agree.",
+        bytes: include_bytes!("../../assets/normal-map.glb"),
     },
 ];
 

@@ -152,7 +152,7 @@ pub fn sphere_lights() -> Glb {
 const POWER: f64 = 10.0;
 
 /// Area of a shape, m².
-fn area(shape: &Shape) -> f64 {
+pub fn area(shape: &Shape) -> f64 {
     let corner = |i: u32| shape.positions[i as usize].map(f64::from);
     let triangle = |c: &[u32]| {
         let [a, b, c] = [0, 1, 2].map(|i| corner(c[i]));

@@ -19,7 +19,8 @@ fn built_in_scenes_load_without_notes() {
         &[
             "cornel: ",
             "no such file and no built-in scene",
-            "cornell, cornell-spheres, indirect, furnace, bokeh, spots, point-mirror, sunlit-room, sphere-lights",
+            "cornell, cornell-spheres, indirect, furnace, bokeh, spots, point-mirror, sunlit-room, sphere-lights, \
+             rough-metal, glass-caustic, foliage, normal-map",
         ],
     );
 }
@@ -59,6 +60,10 @@ fn features_of_the_built_in_scenes() {
     assert_eq!(names("point-mirror"), ["point lights", "mirror", "shading normals"]);
     assert_eq!(names("sunlit-room"), ["directional lights", "environment", "shading normals"]);
     assert_eq!(names("sphere-lights"), ["area lights"]);
+    assert_eq!(names("rough-metal"), ["area lights", "environment", "rough metal", "coat", "shading normals"]);
+    assert_eq!(names("glass-caustic"), ["area lights", "glass", "thin glass", "shading normals"]);
+    assert_eq!(names("foliage"), ["directional lights", "environment", "textures", "shading normals", "alpha mask", "alpha blend"]);
+    assert_eq!(names("normal-map"), ["area lights", "environment", "textures", "normal maps"]);
 }
 
 #[test]

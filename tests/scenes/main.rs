@@ -7,6 +7,7 @@ mod bad_input;
 mod builtins;
 mod captions_emitters;
 mod captions_lens;
+mod captions_surfaces;
 mod defaults;
 mod environment;
 mod extensions;

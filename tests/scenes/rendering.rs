@@ -3,7 +3,8 @@
 use bdpt_explorer::bdpt::{Settings, Strategy, StrategySet};
 use bdpt_explorer::engine::{Job, Session};
 use bdpt_explorer::math::{DVec3, Vec2, Vec3};
-use bdpt_explorer::scene::{Ray, Scene, SurfacePoint, View, builtin};
+use bdpt_explorer::scene::{Overrides, Ray, Scene, SurfacePoint, View, builtin, gltf};
+use serde_json::Value;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -63,4 +64,23 @@ pub fn sees(scene: &Scene, hit: &SurfacePoint, to: Vec3) -> bool {
     let w = (to - hit.position).normalize();
     let from = bdpt_explorer::math::offset_ray_origin(hit.position, hit.error, hit.n_g, w);
     scene.visible(&bdpt_explorer::scene::Segment { from, to })
+}
+
+/// A built-in scene with something changed in its JSON.
+pub fn changed(name: &str, change: impl Fn(&mut Value)) -> Arc<Scene> {
+    let bytes = builtin::list().iter().find(|scene| scene.name == name).unwrap().bytes;
+    let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
+    let mut json = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
+    change(&mut json);
+    let glb = crate::glb::Glb { json, bin: bytes[28 + length..].to_vec() };
+    Arc::new(gltf::load_bytes(name, &glb.bytes(), &Overrides::default()).unwrap())
+}
+
+/// Sets a member of the named materials.
+pub fn set(json: &mut Value, names: &[&str], member: &str, value: &Value) {
+    for material in json["materials"].as_array_mut().unwrap() {
+        if names.iter().any(|name| material["name"] == *name) {
+            material[member] = value.clone();
+        }
+    }
 }
