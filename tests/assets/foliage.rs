@@ -102,7 +102,7 @@ fn twig() -> Vec<u8> {
         let mut inside = smooth(0.022, 0.006, (u - 0.5).abs()) * smooth(0.45, 0.5, v);
         let mut vein = 0.0;
         for (start, turns, length) in leaves {
-            let (sin, cos) = (TAU * turns as f64).sin_cos();
+            let (sin, cos) = (TAU * turns).sin_cos();
             let (x, y) = (u - start[0], start[1] - v);
             let (along, across) = ((x * sin + y * cos) / length, (x * cos - y * sin) / length);
             let width = 0.58 * (along * (1.0 - along)).max(0.0) * (1.25 - 0.5 * along);

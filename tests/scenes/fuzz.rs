@@ -1,32 +1,18 @@
-//! Files with random bytes changed, a short run of them always, a long one on demand:
+//! Files with random changes (by `proptest`, which shrinks what fails to a few), some thousands always, many on demand:
 //!
 //! ```text
-//! BDPT_FUZZ_SECONDS=600 cargo test --release --test scenes fuzz -- --ignored --nocapture
+//! BDPT_FUZZ_SECONDS=600 cargo test --test scenes fuzz -- --ignored --nocapture
 //! ```
-//!
-//! Every change is a function of the seed it prints, so that a failure can be had again: `BDPT_FUZZ_SEED=…`.
 
 use super::*;
+use proptest::collection::vec;
+use proptest::prelude::*;
+use proptest::sample::Index;
+use proptest::test_runner::{Config, TestRunner};
 use std::time::{Duration, Instant};
 
 /// Longest time one small file may take to load or to be refused.
 const PATIENCE: Duration = Duration::from_secs(20);
-
-/// SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() % n as u64) as usize
-    }
-}
 
 /// A file in which everything occurs that the loader reads.
 pub fn everything() -> Glb {
@@ -114,79 +100,113 @@ fn survives(bytes: &[u8], what: &str) {
     assert!(start.elapsed() < PATIENCE, "{what}: it took {:?}", start.elapsed());
 }
 
-/// The file with a few changes that `seed` decides.
-fn mutated(original: &[u8], json_end: usize, seed: u64) -> Vec<u8> {
-    const NUMBERS: [&[u8]; 10] = [b"0", b"-1", b"1e9", b"65535", b"4294967295", b"1e39", b"0.5", b"7", b"-1e-9", b"99999999999999999999"];
-    let mut random = Random(seed);
-    let mut bytes = original.to_vec();
-    for _ in 0..=random.below(4) {
-        let at = random.below(bytes.len());
-        match random.below(6) {
-            // Digits become other digits, so that the JSON still parses and its numbers lie.
-            0 | 1 => {
-                let digits: Vec<usize> = (20..json_end).filter(|&i| bytes[i].is_ascii_digit()).collect();
-                let at = digits[random.below(digits.len())];
-                bytes[at] = b'0' + random.below(10) as u8;
-            }
-            2 => bytes[at] = random.next() as u8,
-            3 => bytes[at] ^= 1 << random.below(8),
-            // A run of bytes comes from elsewhere: other types of numbers, other pictures.
-            4 => {
-                let (from, length) = (random.below(bytes.len()), random.below(64));
-                let run: Vec<u8> = bytes[from..].iter().copied().take(length).collect();
-                bytes.iter_mut().skip(at).zip(run).for_each(|(byte, new)| *byte = new);
-            }
-            // A whole number of the JSON is another, as long as it fits.
-            _ => {
-                let starts: Vec<usize> = (21..json_end).filter(|&i| bytes[i].is_ascii_digit() && b":[,".contains(&bytes[i - 1])).collect();
-                let start = starts[random.below(starts.len())];
-                let end = (start..json_end).find(|&i| b",]}".contains(&bytes[i])).unwrap_or(start);
-                let number = NUMBERS[random.below(NUMBERS.len())];
-                if number.len() <= end - start {
-                    bytes[start..end].fill(b' ');
-                    bytes[start..start + number.len()].copy_from_slice(number);
+/// A change of a file.
+#[derive(Clone, Debug)]
+enum Change {
+    /// A digit of the JSON becomes another, so that it still parses and its numbers lie.
+    Digit(Index, u8),
+    /// A byte becomes another.
+    Byte(Index, u8),
+    /// A bit is turned.
+    Bit(Index, u8),
+    /// A run of bytes comes from elsewhere: other types of numbers, other pictures.
+    Run(Index, Index, usize),
+    /// A whole number of the JSON is another, as long as it fits.
+    Number(Index, &'static str),
+    /// The file is cut short.
+    Cut(Index),
+}
+
+const NUMBERS: [&str; 10] = ["0", "-1", "1e9", "65535", "4294967295", "1e39", "0.5", "7", "-1e-9", "99999999999999999999"];
+
+fn change() -> impl Strategy<Value = Change> {
+    let at = any::<Index>;
+    prop_oneof![
+        6 => (at(), b'0'..=b'9').prop_map(|(at, digit)| Change::Digit(at, digit)),
+        3 => (at(), any::<u8>()).prop_map(|(at, byte)| Change::Byte(at, byte)),
+        3 => (at(), 0..8u8).prop_map(|(at, bit)| Change::Bit(at, bit)),
+        3 => (at(), at(), 1..64usize).prop_map(|(to, from, length)| Change::Run(to, from, length)),
+        3 => (at(), prop::sample::select(&NUMBERS[..])).prop_map(|(at, number)| Change::Number(at, number)),
+        1 => at().prop_map(Change::Cut),
+    ]
+}
+
+impl Change {
+    /// Changes a file whose JSON ends at `json_end`.
+    fn apply(&self, bytes: &mut Vec<u8>, json_end: usize) {
+        let json_end = json_end.min(bytes.len());
+        let places = |bytes: &[u8], number: bool| -> Vec<usize> {
+            let starts = |i: &usize| bytes[*i].is_ascii_digit() && (!number || b":[,".contains(&bytes[i - 1]));
+            (21..json_end).filter(starts).collect()
+        };
+        match self {
+            _ if bytes.is_empty() => {}
+            Self::Digit(at, digit) => {
+                let digits = places(bytes, false);
+                if !digits.is_empty() {
+                    bytes[*at.get(&digits)] = *digit;
                 }
             }
+            Self::Byte(at, byte) => {
+                let at = at.index(bytes.len());
+                bytes[at] = *byte;
+            }
+            Self::Bit(at, bit) => {
+                let at = at.index(bytes.len());
+                bytes[at] ^= 1 << bit;
+            }
+            Self::Run(to, from, length) => {
+                let run: Vec<u8> = bytes[from.index(bytes.len())..].iter().copied().take(*length).collect();
+                let to = to.index(bytes.len());
+                bytes.iter_mut().skip(to).zip(run).for_each(|(byte, new)| *byte = new);
+            }
+            Self::Number(at, number) => {
+                let starts = places(bytes, true);
+                if starts.is_empty() {
+                    return;
+                }
+                let start = *at.get(&starts);
+                let end = (start..json_end).find(|&i| b",]}".contains(&bytes[i])).unwrap_or(start);
+                if number.len() <= end - start {
+                    bytes[start..end].fill(b' ');
+                    bytes[start..start + number.len()].copy_from_slice(number.as_bytes());
+                }
+            }
+            Self::Cut(at) => bytes.truncate(at.index(bytes.len())),
         }
     }
-    bytes.truncate(if random.below(50) == 0 { random.below(bytes.len()) } else { bytes.len() });
-    bytes
 }
 
-fn json_end(bytes: &[u8]) -> usize {
-    20 + u32::from_le_bytes([bytes[12], bytes[13], bytes[14], bytes[15]]) as usize
-}
-
-/// Runs until `enough` says so; how many files that were.
-fn run(first: u64, mut enough: impl FnMut(u64) -> bool) -> u64 {
+/// Loads `cases` changed files; the same every time for the same `seed`.
+fn run(seed: u64, cases: u32) {
     let original = everything().bytes();
-    let scene = gltf::load_bytes("fuzz.glb", &original, &Overrides::default()).unwrap();
-    assert!(scene.features.alpha_mask && scene.features.normal_maps && scene.features.unlit && scene.features.vertex_colors);
-    survives(&original, "the file itself");
-    let mut count = 0;
-    while !enough(count) {
-        let seed = first + count;
-        survives(&mutated(&original, json_end(&original), seed), &format!("seed {seed}"));
-        count += 1;
+    let json_end = 20 + u32::from_le_bytes([original[12], original[13], original[14], original[15]]) as usize;
+    let config = Config { cases, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(seed), ..Config::default() };
+    let result = TestRunner::new(config).run(&vec(change(), 1..5), |changes| {
+        let mut bytes = original.clone();
+        changes.iter().for_each(|change| change.apply(&mut bytes, json_end));
+        survives(&bytes, "a changed file");
+        Ok(())
+    });
+    if let Err(error) = result {
+        panic!("seed {seed}: {error}");
     }
-    count
 }
 
 #[test]
 fn changed_files_make_errors_not_panics() {
-    run(1 << 32, |count| count == 5_000);
+    let original = everything().bytes();
+    let scene = gltf::load_bytes("fuzz.glb", &original, &Overrides::default()).unwrap();
+    assert!(scene.features.alpha_mask && scene.features.normal_maps && scene.features.unlit && scene.features.vertex_colors);
+    survives(&original, "the file itself");
+    run(1 << 32, 5_000);
 }
 
 #[test]
 #[ignore = "as long as BDPT_FUZZ_SECONDS says"]
 fn changed_files_for_long() {
-    let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
-    if let Some(seed) = number("BDPT_FUZZ_SEED") {
-        let original = everything().bytes();
-        survives(&mutated(&original, json_end(&original), seed), &format!("seed {seed}"));
-        return;
-    }
-    let (seconds, start) = (number("BDPT_FUZZ_SECONDS").unwrap_or(600), Instant::now());
-    let count = run(0, |_| start.elapsed() > Duration::from_secs(seconds));
-    println!("{count} files in {:.0?}", start.elapsed());
+    let seconds = std::env::var("BDPT_FUZZ_SECONDS").ok().and_then(|text| text.parse().ok()).unwrap_or(600);
+    let start = Instant::now();
+    let batches = (0..).take_while(|_| start.elapsed() < Duration::from_secs(seconds)).map(|seed| run(seed, 10_000)).count();
+    println!("{} files in {:.0?}", batches * 10_000, start.elapsed());
 }
