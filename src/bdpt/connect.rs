@@ -68,7 +68,7 @@ impl Sample {
     pub fn trace<F: Shape>(&mut self, context: &Context<F>, id: SampleId, light_vertices: usize, eye_vertices: usize) {
         self.id = id;
         let last = context.light_subpath(id, light_vertices, &mut self.light, &mut self.rays_closest);
-        crossing::find(context, &self.light, last, &mut self.crossings, &mut self.rays_shadow);
+        crossing::find(context, &self.light, last, &mut self.crossings);
         if eye_vertices > 0 {
             self.raster = context.eye_subpath(id, eye_vertices, &mut self.eye, &mut self.rays_closest);
         } else {
@@ -197,6 +197,9 @@ impl Sample {
 
         // The edge and what scatters along it.
         let (w, geometry) = a.edge_to(b);
+        if s == 1 && a.alpha == Vec3::ZERO {
+            return Err(Reason::BackOfTheLight);
+        }
         let f_a = light_factor(context, a, s, w)?;
         let (f_b, raster) = match t {
             1 if s == 1 && a.has(DISCRETE) => return Err(Reason::LightNotShown),

@@ -6,7 +6,6 @@
 //! ```
 
 use super::vertex::{Subpath, Vertex};
-use super::visibility::visibility;
 use super::walk::{Context, Step};
 use crate::math::Vec3;
 use crate::scene::Shape;
@@ -21,7 +20,7 @@ pub struct Crossing {
 }
 
 /// Finds the crossings of y₀…y_{n−1} and of the step `last` that left the scene. Each edge has at most one.
-pub fn find<F: Shape>(context: &Context<F>, light: &Subpath, last: Option<Step>, out: &mut Vec<Crossing>, rays_shadow: &mut u64) {
+pub fn find<F: Shape>(context: &Context<F>, light: &Subpath, last: Option<Step>, out: &mut Vec<Crossing>) {
     out.clear();
     if !context.view.has_lens() {
         return;
@@ -31,26 +30,22 @@ pub fn find<F: Shape>(context: &Context<F>, light: &Subpath, last: Option<Step>,
         // What the walk drew is still in the vertex it led to.
         let pdf_fwd_psa = to.pdf_fwd_area / (to.geometry_prev * context.opacity(to));
         let step = Step { direction: -to.w_prev, pdf_fwd_psa, alpha: to.alpha };
-        out.extend(crossing(context, from, Some(to), &step, rays_shadow).map(|lens| Crossing { s: i as u32 + 2, lens }));
+        out.extend(crossing(context, from, Some(to), &step).map(|lens| Crossing { s: i as u32 + 2, lens }));
     }
     if let (Some(step), Some(from)) = (last, light.vertices.last()) {
         let s = light.vertices.len() as u32 + 1;
-        out.extend(crossing(context, from, None, &step, rays_shadow).map(|lens| Crossing { s, lens }));
+        out.extend(crossing(context, from, None, &step).map(|lens| Crossing { s, lens }));
     }
 }
 
-/// The vertex at which a step from `from` crosses the lens, if the walk came so far: what it accepted, `to`, lies beyond.
-fn crossing<F: Shape>(context: &Context<F>, from: &Vertex, to: Option<&Vertex>, step: &Step, rays_shadow: &mut u64) -> Option<Vertex> {
+/// The vertex at which a step from `from` crosses the lens, if the walk came so far: `to`, where it ended, lies beyond. Where it
+/// passed surfaces that are partly there, its own draws have decided; V in the density has only their odds.
+fn crossing<F: Shape>(context: &Context<F>, from: &Vertex, to: Option<&Vertex>, step: &Step) -> Option<Vertex> {
     let point = context.view.cross_lens(from.position, step.direction)?;
     let lens = arrive_at_lens(context, from, step, point)?;
-    if F::ALPHA {
-        // Where the walk passed surfaces that are partly there, its own draws decide; V of arrive_at_lens has only their odds.
-        let room = context.view.clearance / lens.w_prev.dot(lens.n_g).abs();
-        let beyond = |to: &Vertex| (to.position - from.position).dot(step.direction) > (point - from.position).dot(step.direction) - room;
-        return to.is_none_or(beyond).then_some(lens);
-    }
-    *rays_shadow += 1;
-    (visibility(context, from, &lens, -lens.w_prev) > 0.0).then_some(lens)
+    let room = context.view.clearance / lens.w_prev.dot(lens.n_g).abs();
+    let along = |p: Vec3| (p - from.position).dot(step.direction);
+    to.is_none_or(|to| along(to.position) > along(point) - room).then_some(lens)
 }
 
 /// The lens vertex at `point` as a step from `from` reaches it; `None` if the edge has no G or nothing of it is free.

@@ -20,12 +20,17 @@ impl<F: Shape> Context<'_, F> {
         let index = lights.choose(pair(u, 0))?;
         let light = &lights.list[index as usize];
         if light.kind == AREA {
-            let y0 = Vertex::on(&lights.point_on::<F>(self.scene, light, pair(u, 2)), ON_LIGHT);
-            let pdf = light.pdf_area();
-            let l_e_0 = light.l_e_0() * self.emission_factor(&y0) * self.opacity(&y0);
-            return Some(Vertex { alpha: l_e_0 / pdf, pdf_fwd_area: pdf, ..y0 });
+            return Some(self.emit_from_surface(Vertex::on(&lights.point_on::<F>(self.scene, light, pair(u, 2)), ON_LIGHT)));
         }
         Some(self.sample_light_beyond_surfaces(id, index, pair(u, 2), place))
+    }
+
+    /// y₀ on an area light.
+    #[inline(always)]
+    fn emit_from_surface(&self, y0: Vertex) -> Vertex {
+        let light = &self.scene.lights.list[y0.light as usize];
+        let (l_e_0, pdf) = (light.l_e_0() * self.emission_factor(&y0) * self.opacity(&y0), light.pdf_area());
+        Vertex { alpha: l_e_0 / pdf, pdf_fwd_area: pdf, ..y0 }
     }
 
     /// What multiplies the radiance of an area light at a vertex on it: its texture.
@@ -52,7 +57,7 @@ impl<F: Shape> Context<'_, F> {
         let lights = &self.scene.lights;
         let light = &lights.list[y0.light as usize];
         let (l_e_0, pdf) = match light.kind {
-            AREA => (light.l_e_0() * self.emission_factor(&y0) * self.opacity(&y0), light.pdf_area()),
+            AREA => return self.emit_from_surface(y0),
             ENVIRONMENT => (lights.l_e(light, y0.n_g, y0.n_g), lights.pdf_origin(light, y0.n_g)),
             _ => (light.l_e_0(), light.pmf),
         };

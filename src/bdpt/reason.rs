@@ -55,7 +55,7 @@ impl Reason {
                 "the last eye vertex is a mirror or glass: it scatters into single directions, none of them along the edge"
             }
             Self::NotOnALight => "the eye subpath's last vertex does not lie on a light",
-            Self::BackOfTheLight => "the light does not shine this way",
+            Self::BackOfTheLight => "the light does not shine from here this way",
             Self::BehindTheCamera => "the light vertex lies behind the camera",
             Self::OutsideTheFilm => "the light vertex lies outside the picture",
             Self::LightVertexScattersNothing => "the edge leaves the last light vertex behind its surface, where nothing is scattered",

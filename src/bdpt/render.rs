@@ -64,7 +64,7 @@ pub fn image_mean(means: &Means, pixel: usize) -> Vec3 {
 pub struct Counts {
     /// Closest-hit rays.
     pub rays_closest: u64,
-    /// Visibility rays.
+    /// Visibility rays of connections. (What a walk passed where surfaces are partly there is looked up once more, uncounted.)
     pub rays_shadow: u64,
     /// Contributions that were no finite number, and were left out.
     pub non_finite: u64,

@@ -53,8 +53,8 @@ shared_struct! {
         pub pdf_rev_area: f32,
         /// Survival probability q of the roulette here; 1 at a first vertex and where roulette is off.
         pub survival: f32,
-        /// Geometry term (with V, which walks only do not see as 1 behind surfaces that are partly there) of the edge to the
-        /// previous vertex, m⁻²; 0 at the first.
+        /// Geometry term of the edge to the previous vertex, times its V (below 1 where the walk passed surfaces that are only
+        /// partly there), m⁻²; 0 at the first.
         pub geometry_prev: f32,
         /// What the material looks like here, a(x) included; nothing on the lens and where no surface is.
         pub look: Look,

@@ -250,7 +250,7 @@ impl Scene {
         let build_seconds = start.elapsed().as_secs_f64();
         let (material_names, materials): (Vec<_>, Vec<_>) = parts.materials.into_iter().unzip();
         let others = parts.lights.iter().filter_map(|(name, light)| Some((name.clone(), light.relative_to(origin)?))).collect();
-        let textures = Textures::new(&parts.images, &parts.textures);
+        let textures = Textures::new(parts.images, &parts.textures);
         let mut scene = Self {
             name: parts.name,
             origin,

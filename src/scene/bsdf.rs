@@ -17,7 +17,6 @@
 //! ```
 //!
 //! so an eye walk is multiplied by (η_E/η_L)² T/P and a light walk by T/P: radiance is compressed, importance is not.
-
 //!
 //! To add a model: a file with its `eval`, `pdf` and `sample`, a kind in `scene::material`, an arm in the three matches here.
 

@@ -3,6 +3,7 @@
 
 use super::assemble::{Bounds, PartCamera, PartLight, PartTriangle, Parts};
 use super::environment::{Environment, EnvironmentSource};
+use super::texture::Image;
 use crate::math::{DVec3, Vec3};
 use std::f64::consts::{PI, TAU};
 
@@ -50,7 +51,15 @@ impl Parts {
     pub fn with_default_environment(mut self, rotation: f64) -> Self {
         let (Some(bounds), Some(camera)) = (self.bounds(), self.cameras.first()) else { return self };
         let visible = |t: &&PartTriangle| t.relative_to(bounds.centre()).is_some();
-        let emits = |t: &PartTriangle| self.materials.get(t.material as usize).is_some_and(|(_, m)| m.emits());
+        // A texture that is black all over makes no lamp, nor does what is not there.
+        let lit_texel = |image: &Image| image.texels.iter().any(|texel| texel & 0x00ff_ffff != 0);
+        let lit_texture = |texture: u32| {
+            let image = self.textures.get(texture as usize).and_then(|x| self.images.get(x.image as usize));
+            image.is_none_or(lit_texel)
+        };
+        let lamps: Vec<bool> =
+            self.materials.iter().map(|(_, m)| m.emits() && m.opacity > 0.0 && lit_texture(m.emissive_texture)).collect();
+        let emits = |t: &PartTriangle| lamps.get(t.material as usize) == Some(&true);
         let shines = |(_, light): &(String, PartLight)| light.strength().max_element() > 0.0;
         let lit = self.environment.is_some() || self.lights.iter().any(shines) || self.triangles.iter().filter(visible).any(emits);
         if !lit && self.triangles.iter().any(|t| visible(&t)) {

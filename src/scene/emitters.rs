@@ -38,8 +38,10 @@ impl Scene {
 
     /// The mean over a triangle of what multiplies its material's emission; `None` if that is nothing anywhere.
     fn mean_emission(&self, index: u32, triangle: &Triangle, material: &Material) -> Option<Vec3> {
-        if triangle.attributes == NONE || (material.emissive_texture == NONE && material.flags == 0) {
-            return Some(Vec3::splat(self.emission_opacity(triangle, material)));
+        let varies = material.emissive_texture != NONE || material.has(TRANSPARENT) || material.has(UNLIT);
+        if triangle.attributes == NONE || !varies {
+            let opacity = self.emission_opacity(triangle, material);
+            return (opacity > 0.0).then_some(Vec3::splat(opacity));
         }
         let attributes = &self.attributes.list[triangle.attributes as usize];
         let count = self.points_for(material, attributes);

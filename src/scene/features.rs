@@ -192,3 +192,42 @@ impl SceneFeatures {
         table.iter().filter(|(used, _)| *used).map(|(_, name)| *name).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every need by itself keeps out the shapes that lack it, and nothing else does.
+    #[test]
+    fn a_shape_fits_what_it_is_compiled_for() {
+        let none = SceneFeatures::default();
+        let fits = |f: SceneFeatures| [f.fit::<Matte>(), f.fit::<Opaque>(), f.fit::<General>()];
+        assert_eq!(fits(none), [true; 3]);
+        for transparent in [SceneFeatures { alpha_mask: true, ..none }, SceneFeatures { alpha_blend: true, ..none }] {
+            assert_eq!(fits(transparent), [false, false, true], "{transparent:?}");
+        }
+        let looks = [
+            SceneFeatures { textures: true, ..none },
+            SceneFeatures { vertex_colors: true, ..none },
+            SceneFeatures { normal_maps: true, ..none },
+            SceneFeatures { rough_metal: true, ..none },
+            SceneFeatures { coat: true, ..none },
+        ];
+        for look in looks {
+            assert_eq!(fits(look), [false, true, true], "{look:?}");
+        }
+        let all = SceneFeatures::all();
+        let plain = SceneFeatures {
+            alpha_mask: false,
+            alpha_blend: false,
+            textures: false,
+            vertex_colors: false,
+            normal_maps: false,
+            rough_metal: false,
+            coat: false,
+            ..all
+        };
+        assert_eq!(fits(plain), [true; 3]);
+        assert_eq!(fits(all), [false, false, true]);
+    }
+}

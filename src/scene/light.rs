@@ -229,7 +229,8 @@ impl Lights {
         let powers: Vec<f64> = list.iter().enumerate().map(|x| power(x).element_sum()).collect();
         let total = list.iter().enumerate().map(power).sum::<crate::math::DVec3>().as_vec3();
         // A floor keeps every emitter samplable, however weak beside the others.
-        let floor = powers.iter().sum::<f64>() * 1e-6 / list.len().max(1) as f64;
+        let sum = powers.iter().sum::<f64>();
+        let floor = if sum > 0.0 { sum * 1e-6 / list.len() as f64 } else { 1.0 };
         let weights: Vec<f64> = powers.iter().map(|p| p.max(floor)).collect();
         let mut lights = Self { list, names, environment, power: total, ..Self::default() };
         if !lights.list.is_empty() {

@@ -81,8 +81,8 @@ const MIN_GLOSSY_SURVIVAL: f32 = 0.25;
 
 /// The mean over the cosine-weighted hemisphere of Schlick's F = F₀ + (F₉₀ − F₀)(1 − cosθ)⁵.
 #[inline]
-pub fn mean_schlick(f0: f32, f90: f32) -> f32 {
-    f0 * (20.0 / 21.0) + f90 * (1.0 / 21.0)
+pub fn mean_schlick(f0: Vec3, f90: f32) -> Vec3 {
+    f0 * (20.0 / 21.0) + Vec3::splat(f90 * (1.0 / 21.0))
 }
 
 impl Material {
@@ -148,11 +148,11 @@ impl Material {
     pub fn survival_of(&self, color: Vec3, metallic: f32) -> f32 {
         let q = match self.kind {
             LAMBERT => return color.max_element().clamp(0.0, 1.0),
-            CONDUCTOR => color * (20.0 / 21.0) + 1.0 / 21.0,
+            CONDUCTOR => mean_schlick(color, 1.0),
             COAT => {
-                let dielectric = self.f0 * (20.0 / 21.0) + self.f90 * (1.0 / 21.0);
+                let dielectric = mean_schlick(self.f0, self.f90);
                 let coated = color * (1.0 - dielectric.max_element()) + dielectric;
-                coated * (1.0 - metallic) + (color * (20.0 / 21.0) + 1.0 / 21.0) * metallic
+                coated * (1.0 - metallic) + mean_schlick(color, 1.0) * metallic
             }
             _ => return 1.0,
         };

@@ -9,7 +9,7 @@ pub enum Stage {
     /// It reads the file and those it names.
     #[default]
     Reading,
-    /// It reads the meshes; counted in primitives.
+    /// It reads the meshes; counted in nodes that show one.
     Meshes,
     /// It decodes the images.
     Images,

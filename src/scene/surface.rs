@@ -166,11 +166,14 @@ impl Scene {
         if attributes.tangents != NONE {
             return Some(self.attributes.tangents[attributes.tangents as usize].at(point.look.barycentric));
         }
-        let second = self.textures.list[material.normal_texture as usize].flags & SET_1 != 0;
+        let texture = &self.textures.list[material.normal_texture as usize];
+        let second = texture.flags & SET_1 != 0;
         let uvs = self.attributes.uvs.get(if second { attributes.uvs_1 } else { attributes.uvs_0 } as usize)?;
         let tri = &self.triangles[point.triangle as usize];
         let (e1, e2) = (tri.p1 - tri.p0, tri.p2 - tri.p0);
-        let (d1, d2) = (uvs.uv1 - uvs.uv0, uvs.uv2 - uvs.uv0);
+        // The coordinates as the texture is met: a map that is turned takes its axes along.
+        let turned = |d: Vec2| Vec2::new(texture.row_u.truncate().dot(d), texture.row_v.truncate().dot(d));
+        let (d1, d2) = (turned(uvs.uv1 - uvs.uv0), turned(uvs.uv2 - uvs.uv0));
         let det = d1.perp_dot(d2);
         // ∂p/∂u times |det|. v points down, so the map's y is −∂p/∂v: where u and v are not mirrored, n × t.
         let t = (e1 * d2.y - e2 * d1.y) * 1.0f32.copysign(det);

@@ -9,7 +9,7 @@
 
 use crate::math::{Vec2, Vec3};
 use crate::shared_struct;
-use glam::Vec4;
+use glam::{BVec2, Vec4};
 use std::sync::{LazyLock, OnceLock};
 
 shared_struct! {
@@ -111,13 +111,15 @@ static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
 
 impl Textures {
     /// Puts images one after the other.
-    pub fn new(images: &[Image], uses: &[TextureUse]) -> Self {
-        let mut texels = Vec::with_capacity(images.iter().map(|image| image.texels.len()).sum());
+    pub fn new(images: Vec<Image>, uses: &[TextureUse]) -> Self {
+        let sizes: Vec<[u32; 2]> = images.iter().map(|image| image.size).collect();
+        let mut texels = Vec::new();
         let firsts: Vec<u32> = images
-            .iter()
-            .map(|image| {
+            .into_iter()
+            .map(|mut image| {
+                // Each image goes as soon as it is appended: all of them twice would be much.
                 let first = texels.len() as u32;
-                texels.extend_from_slice(&image.texels);
+                texels.append(&mut image.texels);
                 first
             })
             .collect();
@@ -125,8 +127,8 @@ impl Textures {
             let flag = |set: bool, flag: u32| if set { flag } else { 0 };
             Texture {
                 first: firsts[x.image as usize],
-                width: images[x.image as usize].size[0],
-                height: images[x.image as usize].size[1],
+                width: sizes[x.image as usize][0],
+                height: sizes[x.image as usize][1],
                 flags: ((x.wrap[0] as u32) << WRAP_U)
                     | ((x.wrap[1] as u32) << WRAP_V)
                     | flag(x.srgb, SRGB)
@@ -211,9 +213,14 @@ impl Texture {
     /// repeats is counted twice at most.
     fn texels_around(&self, corners: [Vec2; 3]) -> (Vec2, Vec2) {
         let places = corners.map(|uv| self.place(uv));
+        let size = Vec2::new(self.width as f32, self.height as f32);
         let low = places.into_iter().reduce(Vec2::min).unwrap_or_default().floor() - 1.0;
         let high = places.into_iter().reduce(Vec2::max).unwrap_or_default().floor() + 1.0;
-        (low, (high - low + 1.0).min(Vec2::new(self.width as f32, self.height as f32) * 2.0))
+        // Where the edge is repeated for ever, what lies beyond it is the edge.
+        let clamped = BVec2::new(self.flags >> WRAP_U & 3 == Wrap::Clamp as u32, self.flags >> WRAP_V & 3 == Wrap::Clamp as u32);
+        let inside = |place: Vec2| Vec2::select(clamped, place.clamp(Vec2::ZERO, size - 1.0), place);
+        let (low, high) = (inside(low), inside(high));
+        (low, (high - low + 1.0).min(size * 2.0))
     }
 }
 
@@ -241,7 +248,7 @@ mod tests {
     fn checker(wrap: Wrap) -> Textures {
         // Red 0, 1 / 2, 3 (of 255).
         let image = Image { size: [2, 2], texels: vec![0, 1, 2, 3] };
-        Textures::new(&[image], &[TextureUse { wrap: [wrap; 2], ..TextureUse::of(0, false) }])
+        Textures::new(vec![image], &[TextureUse { wrap: [wrap; 2], ..TextureUse::of(0, false) }])
     }
 
     fn red(textures: &Textures, u: f32, v: f32) -> f32 {
@@ -274,7 +281,7 @@ mod tests {
     #[test]
     fn srgb_is_decoded_before_the_mean_is_taken() {
         let image = Image { size: [2, 1], texels: vec![0xff00_0000, 0x8000_00ff] };
-        let t = Textures::new(&[image], &[TextureUse::of(0, true)]);
+        let t = Textures::new(vec![image], &[TextureUse::of(0, true)]);
         let v = t.value(0, Vec2::new(0.5, 0.5));
         assert!((v.x - 0.5).abs() < 1e-6 && (v.w - (255.0 + 128.0) / 510.0).abs() < 1e-6, "{v}");
         assert!((LINEAR[188] - 0.502_886_5).abs() < 1e-6 && LINEAR[0] == 0.0 && LINEAR[255] == 1.0);
@@ -282,10 +289,10 @@ mod tests {
 
     #[test]
     fn the_largest_value_bounds_every_value() {
-        let image = Image { size: [8, 4], texels: (0..32u32).map(|i| i.wrapping_mul(2_654_435_761) >> 8).collect() };
-        let t = Textures::new(&[image], &[TextureUse { wrap: [Wrap::Repeat, Wrap::Mirror], ..TextureUse::of(0, true) }]);
-        for i in 0..200u32 {
-            let r = |k: u32| ((i * 7 + k) as f32 * 0.618_034).fract() * 3.0 - 1.0;
+        let image = || Image { size: [8, 4], texels: (0..32u32).map(|i| i.wrapping_mul(2_654_435_761) >> 8).collect() };
+        for (i, wrap) in (0..600u32).zip([Wrap::Repeat, Wrap::Mirror, Wrap::Clamp].into_iter().cycle()) {
+            let t = Textures::new(vec![image()], &[TextureUse { wrap: [wrap, Wrap::Mirror], ..TextureUse::of(0, true) }]);
+            let r = |k: u32| ((i * 7 + k) as f32 * 0.618_034).fract() * 5.0 - 2.0;
             let corners = [Vec2::new(r(1), r(2)), Vec2::new(r(3), r(4)), Vec2::new(r(5), r(6))];
             let bound = t.largest(0, corners);
             for j in 0..50 {

@@ -37,7 +37,7 @@ pub fn reason_text(reason: Reason, lang: Lang) -> &'static str {
             Reason::LightVertexIsDirac => "光源子路径的末端是镜面或玻璃：它只向个别方向散射，不会沿连接边",
             Reason::EyeVertexIsDirac => "视线子路径的末端是镜面或玻璃：它只向个别方向散射，不会沿连接边",
             Reason::NotOnALight => "视线子路径的末端不在光源上",
-            Reason::BackOfTheLight => "光源不向这个方向发光",
+            Reason::BackOfTheLight => "光源在此处不向这个方向发光",
             Reason::EyeVertexAtInfinity => "视线子路径离开了场景：其末端是环境",
             Reason::LightMissesTheLens => "光源子路径的这条边没有从正面穿过镜头",
             Reason::LightNotShown => "点光源、聚光灯和平行光没有面积，不直接显示",

@@ -123,7 +123,7 @@ fn masks_are_holes() {
     assert_eq!(full, image(&scene(1.0, true)), "above it, all of it is");
 }
 
-/// Accepting a hit depends on segment and primitive alone: with the triangles in another order the same surfaces are met.
+/// Accepting a hit depends on segment and primitive alone, not on the order in which a traversal meets them.
 #[test]
 fn what_a_walk_accepts_does_not_depend_on_the_traversal() {
     let scene = surface_scenes::veils(false);

@@ -74,19 +74,26 @@ fn only_a_disagreement_of_the_normals_is_black() {
     assert!(lit > 3000 && black > 3000);
 }
 
-/// The map's x leans the normal along ∂p/∂u, its y against ∂p/∂v (v points down), however the triangle is turned; where the
-/// texture is mirrored, so is the relief.
+/// The map's x leans the normal along ∂p/∂u, its y against ∂p/∂v (v points down), however the triangle is turned, and however
+/// KHR_texture_transform turns the texture on it.
 #[test]
 fn maps_lean_the_way_the_texture_runs() {
-    for (u, v) in [([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]), ([0.0, 1.0, 0.0], [1.0, 0.0, 0.0]), ([0.0, 0.0, -2.0], [0.3, 1.0, 0.0])] {
+    let sides = [([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]), ([0.0, 1.0, 0.0], [1.0, 0.0, 0.0]), ([0.0, 0.0, -2.0], [0.3, 1.0, 0.0])];
+    // The last one is the first, its texture turned by a quarter: u′ = v, v′ = −u.
+    let quarter = [Vec3::Y, Vec3::NEG_X];
+    for (i, (u, v)) in sides.into_iter().chain([sides[0]]).enumerate() {
         let mut room = Room::new("map");
         let leaning = room.texture(1, false, |_, _| [128 + 60, 128 + 40, 230, 255]);
+        if i == 3 {
+            room.parts().textures[0].rows = quarter;
+        }
         let material = room.material(Material { normal_texture: leaning, ..Material::lambert(Vec3::ONE) }.finished());
         room.textured_quad([0.0; 3], u, v, material, (1.0, [glam::Vec4::ONE; 4]));
         room.camera([0.0, 0.0, 3.0], [0.0; 3], 40.0);
         room.environment(bdpt_explorer::scene::Environment::constant(Vec3::ONE));
         let scene = room.build();
         let (u, v) = (Vec3::from(u.map(|x| x as f32)).normalize(), Vec3::from(v.map(|x| x as f32)).normalize());
+        let (u, v) = if i == 3 { (v, -u) } else { (u, v) };
         for triangle in 0..2 {
             let point = scene.point_on_triangle(triangle, Vec2::splat(0.3));
             let (x, y, z) = (60.5 / 127.5, 40.5 / 127.5, 230.0 / 127.5 - 1.0);

@@ -154,7 +154,7 @@ fn all_scenes() -> Vec<Arc<Scene>> {
     .collect()
 }
 
-/// At least 10⁵ sampled, well-conditioned paths (and many others) in six scenes, with and without roulette, each rebuilt as every strategy that could make it:
+/// At least 10⁵ sampled, well-conditioned paths (and many others), with and without roulette, each rebuilt as every strategy that could make it:
 /// densities, f and Σw agree to 10⁻⁵ (relative; for the others times their conditioning).
 #[test]
 fn paths_rebuilt_by_every_strategy_agree() {
@@ -177,6 +177,27 @@ fn replay_sees_one_density_wrong_by_a_percent() {
     let spoil: Spoil = |path, _, s| path.p_eye[s.max(1) - 1] *= 1.01;
     let found = replay_scene(&scenes::furnace(1.0, 0.7), 200, true, spoil);
     assert!(found.density > 9e-3 && found.weights > 1e-4, "{found:?}");
+}
+
+/// Alpha slips leave the image unbiased where they are in the weights only: here they show.
+#[test]
+fn replay_sees_alpha_forgotten() {
+    let without_a: Spoil = |path, x, s| {
+        // a(x_i) of the vertex that the eye's walk came from, in the light's density of it.
+        if s + 1 < x.len() - 1 {
+            path.p_light[s + 1] /= x[s + 1].look.opacity;
+        }
+    };
+    let without_v: Spoil = |path, x, s| {
+        // V of the edge into x_1 as the eye's side has it in its density of x_0 (0.5 where a veil is crossed).
+        if s == 1 && x.len() > 2 {
+            path.p_eye[0] *= 0.5;
+        }
+    };
+    for (spoil, what) in [(without_a, "a"), (without_v, "V")] {
+        let found = replay_scene(&surface_scenes::veils(true), 600, true, spoil);
+        assert!(found.density > 0.1 && found.weights > 1e-3, "{what}: {found:?}");
+    }
 }
 
 #[test]

@@ -96,10 +96,9 @@ fn measure_what_shapes_gain() {
             pairs(&scene, Matte, Opaque, "matte over opaque ");
             pairs(&scene, Opaque, General, "opaque over general");
         }
-        for scene in [surface_scenes::glossy_room(), surface_scenes::textured()] {
-            if scene.features.fit::<Opaque>() {
-                pairs(&scene, Opaque, General, "opaque over general");
-            }
+        for scene in [surface_scenes::glossy_room(), scenes::builtin("normal-map")] {
+            assert!(scene.features.fit::<Opaque>());
+            pairs(&scene, Opaque, General, "opaque over general");
         }
     });
 }

@@ -107,6 +107,7 @@ fn every_pair_of_strategies_agrees_per_length() {
         (surface_scenes::veils(false), 400_000),
         (surface_scenes::veils(true), 800_000),
         (surface_scenes::veils_under_the_sky(), 400_000),
+        (surface_scenes::holes(), 500_000),
         (surface_scenes::furnace_with_veils(1.0, 0.6, true), 300_000),
     ];
     let (mut results, mut with_t_0) = (Vec::new(), 0);

@@ -3,7 +3,7 @@
 use crate::scenes::Room;
 use bdpt_explorer::math::{Vec2, Vec3};
 use bdpt_explorer::scene::assemble::PartAttributes;
-use bdpt_explorer::scene::material::TRANSPARENT;
+use bdpt_explorer::scene::material::{TRANSPARENT, UNLIT};
 use bdpt_explorer::scene::texture::{Image, TextureUse, Wrap};
 use bdpt_explorer::scene::{Material, NONE, Scene};
 use glam::Vec4;
@@ -222,6 +222,33 @@ pub fn lamp_behind(count: u32, opacity: f32) -> Arc<Scene> {
     room.build()
 }
 
+/// A lamp with holes and a dark texture on it, a sign that shows its colours unlit, a fence, under a wide lens: alpha that is 0 or
+/// 1, texels without interpolation, emission that is nothing in places.
+pub fn holes() -> Arc<Scene> {
+    let mut room = Room::new("holes");
+    let holes = room.texture(4, true, |x, y| [200, 160, 120, if (x + y) % 2 == 0 { 255 } else { 20 }]);
+    let glow = room.texture(2, true, |x, y| if x == y { [255, 200, 120, 255] } else { [0, 0, 0, 255] });
+    room.parts().textures.iter_mut().for_each(|texture| texture.nearest = true);
+    let masked = |material: Material| Material { base_color_texture: holes, cutoff: 0.5, flags: TRANSPARENT, ..material }.finished();
+    let white = room.material(Material::lambert(Vec3::new(0.8, 0.6, 0.4)));
+    let fence = room.material(masked(Material::coat(Vec3::splat(0.7), 0.5, 0.2, 1.5)));
+    let lamp = Material { emission: Vec3::splat(6.0), emissive_texture: glow, ..Material::lambert(Vec3::splat(0.3)) };
+    let lamp = room.material(masked(lamp));
+    let sign =
+        Material { emission: Vec3::splat(0.8), emissive_texture: holes, two_sided: 1, flags: UNLIT, ..Material::lambert(Vec3::ZERO) };
+    let sign = room.material(sign);
+    room.quad([-1.0, -1.0, -1.0], [0.0, 0.0, 2.0], [2.0, 0.0, 0.0], white);
+    room.quad([-1.3, -0.8, -1.0], [0.0, 1.6, 0.0], [0.0, 0.0, 2.0], white);
+    let tint = |i: u32| Vec4::new(1.0, 1.0 - 0.1 * i as f32, 0.8, 1.0);
+    let corners = (1.5, [0, 1, 2, 3].map(tint));
+    room.textured_quad([-0.9, 0.1, -0.9], [0.0, 0.2, 1.6], [1.7, 0.0, 0.0], fence, corners);
+    room.textured_quad([-0.8, -0.7, -1.4], [1.6, 0.0, 0.0], [0.0, 1.2, 0.0], sign, corners);
+    room.textured_quad([-0.5, 1.2, -0.5], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], lamp, corners);
+    room.camera([0.6, 0.1, 2.6], [-0.1, -0.1, 0.0], 55.0);
+    room.lens(0.8, 1.7);
+    room.build()
+}
+
 /// All of them.
 pub fn all() -> Vec<Arc<Scene>> {
     vec![
@@ -232,6 +259,7 @@ pub fn all() -> Vec<Arc<Scene>> {
         veils(false),
         veils(true),
         veils_under_the_sky(),
+        holes(),
         furnace_with_veils(1.0, 0.6, true),
     ]
 }

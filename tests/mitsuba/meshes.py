@@ -119,15 +119,17 @@ def place(gltf: Gltf, primitive: dict, world: np.ndarray, shape: tuple, item: Ma
         if name not in attributes:
             raise Unusable(f"{item.name}: textures on a mesh without {name}")
         uv = gltf.read(attributes[name]).astype(float)[triangles]
+        # Coordinates as the normal map is met: one that is turned takes its axes along.
+        own = uv if item.normal_map is None else uv @ item.normal_map.transform[:2, :2].T
         # The bitangent, n × t · w, points up in the picture, along −v.
-        u, v = (uv[:, i] - uv[:, 0] for i in (1, 2))
+        u, v = (own[:, i] - own[:, 0] for i in (1, 2))
         mirrored = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] > 0
         if "TANGENT" in attributes:
             tangents = gltf.read(attributes["TANGENT"]).astype(float)[triangles]
             mirrored = (tangents[:, 0, 3] < 0) != turned
             tangents = tangents[..., :3] @ matrix.T
         elif item.normal_map is not None:
-            tangents = uv_tangents(corners, uv)
+            tangents = uv_tangents(corners, own)
     if "COLOR_0" in attributes:
         colors = gltf.read(attributes["COLOR_0"]).astype(float)[triangles]
         if colors.shape[2] == 3:

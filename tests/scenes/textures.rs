@@ -186,6 +186,10 @@ fn roughness_metal_and_emission_come_from_pictures() {
     // A black emissive texture emits nothing.
     glb.json["images"][1]["bufferView"] = json!(glb.view(&png([1, 1], &[[0, 0, 0, 255]])));
     assert!(load(&glb).triangles.iter().filter(|t| t.material == 1).all(|t| t.light == NONE));
+    // And where that is all that could, there is no light: the studio's stands in.
+    glb.json["materials"][0].as_object_mut().unwrap().remove("emissiveFactor");
+    let dark = load(&glb);
+    assert!(dark.features.environment && dark.notes.iter().any(|note| note.contains("studio")), "{:?}", dark.notes);
 }
 
 #[test]

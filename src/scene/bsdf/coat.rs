@@ -38,7 +38,7 @@ impl Lobes {
             alpha: Material::alpha(look.roughness),
             f0: look.color * m + material.f0 * (1.0 - m),
             f90: Vec3::splat(m + material.f90 * (1.0 - m)),
-            base: look.color * ((1.0 - m) / (1.0 - mean_schlick(over[0], over[1])).max(1e-3)),
+            base: look.color * ((1.0 - m) / (1.0 - mean_schlick(material.f0, material.f90).max_element()).max(1e-3)),
             over,
         }
     }

@@ -62,7 +62,8 @@ impl Shape {
             None => 0..count,
             Some(list) => {
                 let (first, last) = list.iter().fold((u32::MAX, 0), |(low, high), &i| (low.min(i), high.max(i)));
-                first as usize..last as usize + 1
+                // Where usize has 32 bits, the last index has no successor.
+                first as usize..(last as usize).saturating_add(1)
             }
         };
         if range.end > count && count > 0 {
