@@ -24,6 +24,7 @@ pub fn prepare(args: &EstimatorArgs, hide: bool) -> Result<Prepared, Failure> {
         scene: args.scene_name.clone(),
     };
     let scene = open(&args.scene, &overrides)?;
+    // An error is one line: the loader's notes come when there is none.
     let camera = camera(&scene, args)?;
     let lens = lens(scene.cameras[camera].lens, args);
     let job = Job { camera, lens, size: args.size, ..Job::new(scene) };
@@ -38,6 +39,7 @@ pub fn prepare(args: &EstimatorArgs, hide: bool) -> Result<Prepared, Failure> {
         ..Settings::default()
     };
     let hide = hide && existence.active(&settings).count() > shown.len();
+    say_notes(&job.scene);
     say_what_is_lost(existence, &settings);
     Ok(Prepared { job: Job { settings, weighted_layers: hide, ..job }, shown, hide })
 }
@@ -53,13 +55,16 @@ pub fn say_what_is_lost(existence: Existence, settings: &Settings) {
     }
 }
 
-/// Opens a scene and says what its loader had to say.
+/// Opens a scene.
 pub fn open(name: &str, overrides: &Overrides) -> Result<Arc<Scene>, Failure> {
-    let scene = super::progress::loading(|progress| builtin::open_with(name, overrides, progress))?;
+    Ok(Arc::new(super::progress::loading(|progress| builtin::open_with(name, overrides, progress))?))
+}
+
+/// Says what the loader of a scene had to say.
+pub fn say_notes(scene: &Scene) {
     for note in &scene.notes {
         eprintln!("note: {note}");
     }
-    Ok(Arc::new(scene))
 }
 
 fn camera(scene: &Scene, args: &EstimatorArgs) -> Result<usize, Failure> {

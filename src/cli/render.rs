@@ -1,7 +1,7 @@
 //! `render`: from a job to files. Also what happens where no window can be opened.
 
 use super::args::RenderArgs;
-use super::job::{Prepared, open, prepare, say_what_is_lost};
+use super::job::{Prepared, open, prepare, say_notes, say_what_is_lost};
 use super::progress::{self, Limit};
 use super::{Failure, print};
 use crate::bdpt::{HeuristicKind, Strategy, StrategySet};
@@ -55,6 +55,7 @@ pub fn run(args: &RenderArgs) -> Result<(), Failure> {
 /// Renders `scene` at the defaults into a folder, because there is no window to show it in.
 pub fn without_window(why: &str, scene: &str) -> Result<(), Failure> {
     let scene = open(scene, &Overrides::default())?;
+    say_notes(&scene);
     let folder = Path::new("bdpt-explorer-out");
     eprintln!("no window: {why}");
     eprintln!("rendering {} on the CPU into ./{}/ instead (at most {} s)", scene.name, folder.display(), PATIENCE.as_secs());

@@ -45,6 +45,9 @@ pub const NEAREST: u32 = 32;
 /// Flag: texture coordinate set 1 instead of 0.
 pub const SET_1: u32 = 64;
 
+/// Farthest place from an image's corner that is told apart, texels.
+const FARTHEST: f32 = 1e9;
+
 /// What lies beyond an image's edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wrap {
@@ -204,7 +207,9 @@ impl Texture {
     #[inline]
     pub fn place(&self, uv: Vec2) -> Vec2 {
         let uv = uv.extend(1.0);
-        Vec2::new(self.row_u.dot(uv) * self.width as f32, self.row_v.dot(uv) * self.height as f32)
+        let place = Vec2::new(self.row_u.dot(uv) * self.width as f32, self.row_v.dot(uv) * self.height as f32);
+        // Beyond that f32 has no places between texels; infinity would have none at all.
+        place.clamp(Vec2::splat(-FARTHEST), Vec2::splat(FARTHEST))
     }
 }
 

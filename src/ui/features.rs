@@ -33,7 +33,16 @@ pub fn sentence(state: &State, scene: &Scene) -> String {
     let needs = fill(state.say(Text::SceneNeeds), &[&scene.triangles.len().to_string(), &names.join(", ")]);
     match scene.textures.bytes() {
         0 => needs,
-        bytes => format!("{needs}\n{}", fill(state.say(Text::SceneTextures), &[&format!("{:.1}", bytes as f64 / 1e6)])),
+        bytes => format!("{needs}\n{}", fill(state.say(Text::SceneTextures), &[&size(bytes)])),
+    }
+}
+
+/// A number of bytes as one reads it.
+fn size(bytes: usize) -> String {
+    match bytes as f64 {
+        bytes if bytes < 1e3 => format!("{bytes} B"),
+        bytes if bytes < 1e6 => format!("{:.1} kB", bytes / 1e3),
+        bytes => format!("{:.1} MB", bytes / 1e6),
     }
 }
 

@@ -222,6 +222,8 @@ impl Live {
                 if !self.opened().is_some_and(same) || state.camera >= scene.cameras.len() {
                     state.choose_camera(0);
                 }
+                // A scene that was never seen is not paused before its first pass.
+                state.paused = false;
                 self.shown = Some(Shown { scene: Arc::new(scene), opening });
             }
             Err(failure) => {

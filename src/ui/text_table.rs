@@ -318,7 +318,7 @@ texts! {
     KeyPause: "Pause or resume rendering", "暂停或继续渲染";
     KeyHelp: "This list of keys", "显示此快捷键列表";
     SceneNeeds: "{} triangles; needs: {}", "{} 个三角形；需要：{}";
-    SceneTextures: "Textures: {} MB", "纹理：{} MB";
+    SceneTextures: "Textures: {}", "纹理：{}";
     FeatureAreaLights: "area lights", "面光源";
     FeatureTwoSided: "two-sided emitters", "双面发光体";
     FeaturePoint: "point lights", "点光源";

@@ -19,7 +19,15 @@ fn materials_map_to_models() {
     assert_eq!((seen(&scene).kind, seen(&scene).ior), (THIN_DIELECTRIC, 1.4));
     let mut thick = glass("pane", 1.4);
     thick["extensions"]["KHR_materials_volume"] = json!({ "thicknessFactor": 0.1 });
-    assert_eq!(seen(&load(&square(thick))).kind, DIELECTRIC);
+    let scene = load(&square(thick.clone()));
+    assert_eq!(seen(&scene).kind, DIELECTRIC);
+    says(&scene.notes.join(" "), &["a thickness on a mesh that is not closed", "'pane'"]);
+    // Half-transparent, it has no inside.
+    thick["alphaMode"] = json!("BLEND");
+    thick["pbrMetallicRoughness"]["baseColorFactor"] = json!([1.0, 1.0, 1.0, 0.5]);
+    let scene = load(&square(thick));
+    assert_eq!(seen(&scene).kind, THIN_DIELECTRIC);
+    says(&scene.notes.join(" "), &["Glass with holes has no inside", "'pane'"]);
 }
 
 #[test]

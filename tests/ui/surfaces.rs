@@ -14,8 +14,8 @@ fn open_menu(window: &mut Harness<'static, App>) {
 fn the_menu_says_what_the_scene_needs_in_both_languages() {
     let mut window = showing(scenes::veiled());
     for (lang, words) in [
-        (Lang::Zh, ["16 个三角形；需要：", "涂层", "透明混合", "纹理：0.0 MB"]),
-        (Lang::En, ["16 triangles; needs: ", "coat", "alpha blend", "Textures: 0.0 MB"]),
+        (Lang::Zh, ["16 个三角形；需要：", "涂层", "透明混合", "纹理：16 B"]),
+        (Lang::En, ["16 triangles; needs: ", "coat", "alpha blend", "Textures: 16 B"]),
     ] {
         window.state_mut().state_mut().prefs.lang = lang;
         window.run_steps(2);

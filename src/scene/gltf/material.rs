@@ -15,7 +15,7 @@ mod factors;
 
 use super::super::material::{TRANSPARENT, UNLIT, VARIES};
 use super::super::texture::{Image, TextureUse};
-use super::super::{COAT, CONDUCTOR, LAMBERT, MIRROR, Material, NONE, Progress, SceneError};
+use super::super::{COAT, CONDUCTOR, DIELECTRIC, LAMBERT, MIRROR, Material, NONE, Progress, SceneError, THIN_DIELECTRIC};
 use super::container::{Document, label, listed};
 use super::images;
 use super::textures::{Reference, TextureTable};
@@ -26,6 +26,8 @@ use ::gltf::json::validation::Checked;
 use factors::Factors;
 use std::collections::{BTreeMap, HashMap};
 
+/// Most by which a normal map is scaled: its squares must stay in the range of f32.
+const STEEPEST: f32 = 1e15;
 /// Below this roughness a surface is a Dirac.
 const SMOOTH: f32 = 0.03;
 
@@ -103,7 +105,15 @@ impl<'a> Materials<'a> {
                 None => return Err(self.document.error(format!("material {i}"), "it is used but does not exist; export the file again")),
             },
         };
-        let solid = factors::transmission(json) > 0.0 && (factors::thickness(json) > 0.0 || closed());
+        let transmits = factors::transmission(json) > 0.0;
+        let closed = transmits && closed();
+        let solid = closed || (transmits && factors::thickness(json) > 0.0);
+        if solid && !closed {
+            self.remarks.add(
+                "Glass with a thickness on a mesh that is not closed: what enters it may never leave, so its radiance is not to be trusted",
+                &name,
+            );
+        }
         if let Some(&index) = self.index_of.get(&(material, solid)) {
             return Ok(index);
         }
@@ -152,6 +162,11 @@ impl<'a> Materials<'a> {
             // Interpolation rounds: what just reaches the cutoff counts as transparent.
             let transparent = alpha.is_some_and(|cutoff| lowest < cutoff.map_or(1.0, |cutoff| cutoff.min(1e9) * (1.0 + 1e-6)));
             if transparent {
+                if material.kind == DIELECTRIC {
+                    // What enters through the surface and leaves through a hole would keep the radiance of the inside.
+                    material.kind = THIN_DIELECTRIC;
+                    notes.push(format!("Glass with holes has no inside; it was taken for a sheet: '{name}'."));
+                }
                 material.flags |= TRANSPARENT;
                 material.cutoff = alpha.flatten().unwrap_or(-1.0);
             } else {
@@ -194,7 +209,10 @@ impl<'a> Materials<'a> {
         let emissive = json.emissive_texture.as_ref().filter(|_| f.emission != Vec3::ZERO);
         let emissive_texture = self.texture(emissive, "emissive", true, name)?;
         let (normal_texture, normal_scale) = match &json.normal_texture {
-            Some(normal) if normal.scale.is_finite() => (self.refer(&Reference::of_normal(normal)?, "normal", false, name)?, normal.scale),
+            Some(normal) if normal.scale.is_finite() => {
+                let texture = self.refer(&Reference::of_normal(normal)?, "normal", false, name)?;
+                (texture, normal.scale.clamp(-STEEPEST, STEEPEST))
+            }
             Some(_) => return Err("the scale of its normal texture is not finite; repair the material and export it again".into()),
             None => (NONE, 1.0),
         };

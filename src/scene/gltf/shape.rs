@@ -133,7 +133,8 @@ impl Shape {
     pub fn lost_precision(&self) -> Option<f32> {
         let (min, max) = self.positions.iter().fold((Vec3::MAX, Vec3::MIN), |(min, max), p| (min.min(*p), max.max(*p)));
         let rounding = 0.5 * f32::EPSILON * min.abs().max(max.abs()).max_element();
-        (rounding > 1e-4 * (max - min).max_element()).then_some(rounding)
+        let extent = (max - min).max_element();
+        (extent > 0.0 && rounding > 1e-4 * extent).then_some(rounding)
     }
 
     /// Does the primitive enclose a volume: is every edge shared by exactly two oppositely oriented triangles, once
