@@ -1,9 +1,9 @@
 //! One handle over the renderer: what to render, a session that renders it step by step, and a thread that does so for a
 //! window without ever blocking it.
 
+use crate::bdpt::context::Context;
 use crate::bdpt::record::record as record_sample;
 use crate::bdpt::render::{Counts, Plan, image_mean, render_rows, splat_quantum};
-use crate::bdpt::walk::Context;
 use crate::bdpt::{PathRecord, Strategy, StrategySet};
 use crate::film::Film;
 pub use crate::film::Rect as Crop;

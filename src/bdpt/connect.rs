@@ -8,6 +8,7 @@
 //! C*_{s,t} = α^L_s c_{s,t} α^E_t / n          n = evaluations of the technique per pass = number of pixels
 //! ```
 
+use super::context::Context;
 use super::crossing::{self, Crossing};
 use super::mis::mis_weight;
 use super::path::{Edge, FullPath};
@@ -15,7 +16,6 @@ use super::reason::Reason;
 use super::strategy::Strategy;
 use super::vertex::{AT_INFINITY, DISCRETE, Subpath, Vertex};
 use super::visibility::visibility;
-use super::walk::Context;
 use crate::math::{Vec2, Vec3};
 use crate::rng::{BLOCK_EYE_START, BLOCK_FRESH_LENS, BLOCK_FRESH_LIGHT, BLOCK_FRESH_PLACE, SampleId, pair};
 use crate::scene::light::AREA;

@@ -5,8 +5,9 @@
 //! x_k = the crossing        P_A(x_k) = q(y_{k−1}) P_σ⊥(y_{k−1}→x_k) G V        C*_{k+1,0} = α^L_{k+1} W_e⁽⁰⁾ W_e⁽¹⁾(x_{k−1}→x_k) / n
 //! ```
 
+use super::context::Context;
 use super::vertex::{Subpath, Vertex};
-use super::walk::{Context, Step};
+use super::walk::Step;
 use crate::math::Vec3;
 use crate::scene::Shape;
 

@@ -4,8 +4,8 @@
 //! α₁^L = L_e⁽⁰⁾(y₀) a(y₀)/P(y₀)          α₁^E = W_e⁽⁰⁾(z₀)/P_A(z₀) = 1     (lens: both are 1/A_lens; a pinhole's Diracs cancel)
 //! ```
 
+use super::context::Context;
 use super::vertex::{AT_INFINITY, AT_POINT, DISCRETE, ON_LENS, ON_LIGHT, Vertex};
-use super::walk::Context;
 use crate::math::{Vec2, Vec3};
 use crate::rng::{SampleId, pair};
 use crate::scene::light::{AREA, DIRECTIONAL, ENVIRONMENT};

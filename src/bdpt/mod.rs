@@ -12,6 +12,7 @@
 //! | C_{s,t} | `contribution` | w C* |
 
 pub mod connect;
+pub mod context;
 pub mod crossing;
 pub mod ends;
 pub mod existence;

@@ -8,9 +8,9 @@
 //! reaches it through x_{i+1}; roulette, V of the edge and a(x_i) included (x₀ chosen on a light has none of them). Diracs are already removed: every strategy that can make the path has the
 //! same ones.
 
+use super::context::Context;
 use super::strategy::MAX_VERTICES;
 use super::vertex::{DISCRETE, Vertex};
-use super::walk::Context;
 use crate::math::Vec3;
 use crate::scene::{Shape, TransportMode};
 

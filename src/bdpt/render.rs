@@ -7,10 +7,10 @@
 //! ```
 
 use super::connect::{Contribution, Sample};
+use super::context::Context;
 use super::existence::Existence;
 use super::settings::Settings;
 use super::strategy::{MAX_VERTICES, Strategy};
-use super::walk::Context;
 use crate::film::{Film, Layers, Means, Rect, Row, Splats};
 use crate::math::Vec3;
 use crate::rng::{BLOCK_SPLAT, SampleId};

@@ -6,12 +6,13 @@
 //! computed on its own, must sum to one.
 
 use super::connect::{Contribution, Sample};
+use super::context::Context;
 use super::crossing::{Crossing, arrive_at_lens};
 use super::path::FullPath;
 use super::reason::Reason;
 use super::strategy::Strategy;
 use super::vertex::{AT_INFINITY, AT_POINT, DELTA, DISCRETE, End, ON_LIGHT, ON_SURFACE, Subpath, Vertex};
-use super::walk::{Context, Step};
+use super::walk::Step;
 use crate::math::{Vec2, Vec3};
 use crate::rng::SampleId;
 use crate::scene::{General, TransportMode};

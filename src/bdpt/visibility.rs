@@ -1,7 +1,7 @@
 //! V: what of an edge is free.
 
+use super::context::Context;
 use super::vertex::{AT_INFINITY, ON_LENS, Vertex};
-use super::walk::Context;
 use crate::math::{Vec3, offset_ray_origin};
 use crate::scene::{Ray, Segment, Shape};
 

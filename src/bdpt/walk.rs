@@ -12,8 +12,8 @@
 //!
 //! A vertex is stored before its roulette, so q_i enters what comes after it, in both directions, and never the vertex itself.
 
+use super::context::Context;
 use super::ends::free_point;
-use super::settings::Settings;
 use super::vertex::{AT_INFINITY, DELTA, End, ON_SURFACE, Subpath, Vertex};
 use super::visibility::visibility;
 use crate::math::{Vec2, Vec3, offset_ray_origin, sample_disk};
@@ -22,21 +22,7 @@ use crate::rng::{
     SampleId, pair,
 };
 use crate::scene::alpha::Draws;
-use crate::scene::material::VARIES;
-use crate::scene::{General, Ray, Scene, Shape, SurfacePoint, TransportMode, View};
-
-/// What every part of the estimator reads.
-#[derive(Clone, Copy, Debug)]
-pub struct Context<'a, F = General> {
-    /// The scene.
-    pub scene: &'a Scene,
-    /// The camera with its film.
-    pub view: &'a View,
-    /// The user's choices.
-    pub settings: &'a Settings,
-    /// What the loops are compiled for; it must fit the scene.
-    pub shape: F,
-}
+use crate::scene::{Ray, Shape, SurfacePoint, TransportMode};
 
 /// The next step of a walk: where to, with what density, and the α that arrives.
 #[derive(Clone, Copy, Debug)]
@@ -49,24 +35,7 @@ pub struct Step {
     pub alpha: Vec3,
 }
 
-impl<'a> Context<'a> {
-    /// The context of any scene.
-    pub fn new(scene: &'a Scene, view: &'a View, settings: &'a Settings) -> Self {
-        Self { scene, view, settings, shape: General }
-    }
-}
-
 impl<F: Shape> Context<'_, F> {
-    /// Survival probability at a surface vertex.
-    #[inline]
-    pub fn survival(&self, v: &Vertex) -> f32 {
-        if !self.settings.roulette {
-            return 1.0;
-        }
-        let material = &self.scene.materials[v.material as usize];
-        if F::TEXTURES && material.has(VARIES) { material.survival_of(v.look.color, v.look.metallic) } else { material.survival }
-    }
-
     /// Walks y₀, y₁, … up to `max_vertices`; returns the step that left the scene, if one did. `rays` counts the rays traced.
     pub fn light_subpath(&self, id: SampleId, max_vertices: usize, out: &mut Subpath, rays: &mut u64) -> Option<Step> {
         out.vertices.clear();
@@ -199,12 +168,6 @@ impl<F: Shape> Context<'_, F> {
     #[inline(always)]
     pub fn seen_through(&self, a: &Vertex, b: &Vertex, w: Vec3) -> f32 {
         if F::ALPHA && self.scene.features.alpha_blend { visibility(self, a, b, w) } else { 1.0 }
-    }
-
-    /// a of a vertex.
-    #[inline(always)]
-    pub fn opacity(&self, v: &Vertex) -> f32 {
-        if F::ALPHA { v.look.opacity } else { 1.0 }
     }
 
     /// The environment's vertex at the end of an eye subpath.

@@ -3,7 +3,7 @@
 //! Each kind is a flat array; a triangle names its entries through one record, and a flat grey triangle has none at all.
 
 use super::NONE;
-use super::assemble::{PartAttributes, PartTriangle};
+use super::parts::{PartAttributes, PartTriangle};
 use crate::math::{Vec2, Vec3};
 use crate::shared_struct;
 use glam::Vec4;

@@ -1,8 +1,8 @@
 //! What a file leaves out: a camera that frames the scene, a studio that lights it. Each default is said in the notes. And
 //! what a user wants otherwise than the file has it.
 
-use super::assemble::{Bounds, PartCamera, PartLight, PartTriangle, Parts};
 use super::environment::{Environment, EnvironmentSource};
+use super::parts::{Bounds, PartCamera, PartLight, PartTriangle, Parts};
 use super::texture::Image;
 use crate::math::{DVec3, Vec3};
 use std::f64::consts::{PI, TAU};

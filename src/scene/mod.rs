@@ -19,13 +19,13 @@ pub mod features;
 pub mod gltf;
 pub mod light;
 pub mod material;
+pub mod parts;
 pub mod progress;
 mod read;
 pub mod sphere;
 pub mod surface;
 pub mod texture;
 
-pub use assemble::Parts;
 pub use bsdf::{Bsdf, BsdfSample, TransportMode};
 pub use bvh::{Bvh, Hit, Ray, Segment};
 pub use camera::{Camera, Lens, View};
@@ -35,6 +35,7 @@ pub use error::SceneError;
 pub use features::{General, Matte, Opaque, SceneFeatures, Shape};
 pub use light::Lights;
 pub use material::{COAT, CONDUCTOR, DIELECTRIC, LAMBERT, MIRROR, Material, THIN_DIELECTRIC};
+pub use parts::Parts;
 pub use progress::Progress;
 pub use surface::{Look, SurfacePoint};
 

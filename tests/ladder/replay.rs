@@ -2,10 +2,10 @@
 
 use crate::{emitters_scenes, scenes, surface_scenes};
 use bdpt_explorer::bdpt::connect::Sample;
+use bdpt_explorer::bdpt::context::Context;
 use bdpt_explorer::bdpt::mis::{log_densities, mis_weight, mis_weights_by_definition};
 use bdpt_explorer::bdpt::path::FullPath;
 use bdpt_explorer::bdpt::replay::{ReplayError, replay};
-use bdpt_explorer::bdpt::walk::Context;
 use bdpt_explorer::bdpt::{Reason, Settings, Strategy, Vertex};
 use bdpt_explorer::rng::SampleId;
 use bdpt_explorer::scene::{COAT, CONDUCTOR, DIELECTRIC, Material, Scene, View};

@@ -2,7 +2,7 @@
 
 use crate::scenes;
 use crate::stats::chi_squared;
-use bdpt_explorer::bdpt::walk::Context;
+use bdpt_explorer::bdpt::context::Context;
 use bdpt_explorer::bdpt::{Settings, Subpath};
 use bdpt_explorer::math::{INV_PI, Vec2, Vec3, sample_cosine_hemisphere, sample_disk, sample_triangle};
 use bdpt_explorer::rng::{SampleId, pair};

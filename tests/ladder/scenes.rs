@@ -1,7 +1,7 @@
 //! Small scenes for the ladder, built from triangles; each is there for one thing.
 
 use bdpt_explorer::math::{DVec3, Vec3};
-use bdpt_explorer::scene::assemble::{PartCamera, PartLight, PartTriangle, Parts};
+use bdpt_explorer::scene::parts::{PartCamera, PartLight, PartTriangle, Parts};
 use bdpt_explorer::scene::{Environment, Material, NONE, Scene};
 use std::sync::Arc;
 

@@ -2,8 +2,8 @@
 
 use crate::images::job;
 use crate::{emitters_scenes, scenes, surface_scenes};
+use bdpt_explorer::bdpt::context::Context;
 use bdpt_explorer::bdpt::render::{Plan, render_rows_as, splat_quantum};
-use bdpt_explorer::bdpt::walk::Context;
 use bdpt_explorer::bdpt::{Existence, Settings};
 use bdpt_explorer::engine::Crop;
 use bdpt_explorer::film::Film;

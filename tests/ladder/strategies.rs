@@ -7,8 +7,8 @@
 use crate::stats::{Moments, z_limit};
 use crate::{emitters_scenes, scenes, surface_scenes};
 use bdpt_explorer::bdpt::connect::Sample;
+use bdpt_explorer::bdpt::context::Context;
 use bdpt_explorer::bdpt::mis::log_densities;
-use bdpt_explorer::bdpt::walk::Context;
 use bdpt_explorer::bdpt::{Settings, Strategy};
 use bdpt_explorer::rng::SampleId;
 use bdpt_explorer::scene::{Scene, View};

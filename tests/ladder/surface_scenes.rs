@@ -2,8 +2,8 @@
 
 use crate::scenes::Room;
 use bdpt_explorer::math::{Vec2, Vec3};
-use bdpt_explorer::scene::assemble::PartAttributes;
 use bdpt_explorer::scene::material::{TRANSPARENT, UNLIT};
+use bdpt_explorer::scene::parts::PartAttributes;
 use bdpt_explorer::scene::texture::{Image, TextureUse, Wrap};
 use bdpt_explorer::scene::{Material, NONE, Scene};
 use glam::Vec4;

@@ -1,8 +1,8 @@
 //! Small scenes with lights and lenses that no built-in scene has.
 
 use bdpt_explorer::math::{DVec3, Vec3};
-use bdpt_explorer::scene::assemble::{PartCamera, PartLight, PartTriangle, Parts};
 use bdpt_explorer::scene::material::TRANSPARENT;
+use bdpt_explorer::scene::parts::{PartCamera, PartLight, PartTriangle, Parts};
 use bdpt_explorer::scene::texture::{Image, TextureUse};
 use bdpt_explorer::scene::{Environment, Material, NONE, Scene};
 use std::sync::Arc;

@@ -5,13 +5,13 @@ use super::{
     VertexRecord,
 };
 use crate::bdpt::connect::{Contribution, Sample};
+use crate::bdpt::context::Context;
 use crate::bdpt::mis::{log_densities, mis_weights_by_definition};
 use crate::bdpt::path::FullPath;
 use crate::bdpt::reason::Reason;
 use crate::bdpt::strategy::Strategy;
 use crate::bdpt::vertex::{AT_INFINITY, DISCRETE, ON_LENS, ON_LIGHT, Subpath, Vertex};
 use crate::bdpt::visibility::segment;
-use crate::bdpt::walk::Context;
 use crate::math::Vec3;
 use crate::rng::SampleId;
 use crate::scene::{NONE, Scene};

@@ -4,8 +4,8 @@
 //! falls off with the square of the distance alone.
 
 use super::super::SceneError;
-use super::super::assemble::PartLight;
 use super::super::environment::MAX_RADIANCE;
+use super::super::parts::PartLight;
 use super::container::{Document, label};
 use super::nodes::Placed;
 use crate::math::Vec3;

@@ -1,7 +1,7 @@
 //! From mesh primitives to triangles in the scene's coordinates, with what they have for their textures.
 
 use super::super::Progress;
-use super::super::assemble::{PartAttributes, PartTriangle};
+use super::super::parts::{PartAttributes, PartTriangle};
 use super::super::progress::Stage;
 use super::super::{NONE, SceneError};
 use super::container::{Document, label};

@@ -1,7 +1,7 @@
 //! The node hierarchy, flattened: every node of the scene once, with its transform composed in f64.
 
 use super::super::SceneError;
-use super::super::assemble::PartCamera;
+use super::super::parts::PartCamera;
 use super::container::{Document, label};
 use super::extras;
 use crate::math::{DMat4, DVec3};
