@@ -21,7 +21,7 @@ fn materials_map_to_models() {
     thick["extensions"]["KHR_materials_volume"] = json!({ "thicknessFactor": 0.1 });
     let scene = load(&square(thick.clone()));
     assert_eq!(seen(&scene).kind, DIELECTRIC);
-    says(&scene.notes.join(" "), &["a thickness on a mesh that is not closed", "'pane'"]);
+    says(&scene.notes.join(" "), &["The mesh of this glass is not closed", "'pane'"]);
     // Half-transparent, it has no inside.
     thick["alphaMode"] = json!("BLEND");
     thick["pbrMetallicRoughness"]["baseColorFactor"] = json!([1.0, 1.0, 1.0, 0.5]);

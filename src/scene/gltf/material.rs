@@ -108,22 +108,24 @@ impl<'a> Materials<'a> {
         let transmits = factors::transmission(json) > 0.0;
         let closed = transmits && closed();
         let solid = closed || (transmits && factors::thickness(json) > 0.0);
-        if solid && !closed {
+        let index = match self.index_of.get(&(material, solid)) {
+            Some(&index) => index,
+            None => {
+                let draft = self.make(json, name.clone(), solid).map_err(|reason| {
+                    let element = material.map_or_else(|| name.clone(), |i| label("material", i, json.name.as_deref()));
+                    self.document.error(element, reason)
+                })?;
+                self.drafts.push(draft);
+                self.index_of.insert((material, solid), self.drafts.len() as u32 - 1);
+                self.drafts.len() as u32 - 1
+            }
+        };
+        if self.drafts[index as usize].material.kind == DIELECTRIC && !closed {
             self.remarks.add(
-                "Glass with a thickness on a mesh that is not closed: what enters it may never leave, so its radiance is not to be trusted",
+                "The mesh of this glass is not closed, so what its thickness lets in may never leave; do not trust its radiance",
                 &name,
             );
         }
-        if let Some(&index) = self.index_of.get(&(material, solid)) {
-            return Ok(index);
-        }
-        let draft = self.make(json, name.clone(), solid).map_err(|reason| {
-            let element = material.map_or(name, |i| label("material", i, json.name.as_deref()));
-            self.document.error(element, reason)
-        })?;
-        let index = self.drafts.len() as u32;
-        self.drafts.push(draft);
-        self.index_of.insert((material, solid), index);
         Ok(index)
     }
 
