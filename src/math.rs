@@ -184,12 +184,6 @@ pub fn offset_ray_origin(p: Vec3, error: f32, n: Vec3, w: Vec3) -> Vec3 {
     p + n * ((n.x.abs() + n.y.abs() + n.z.abs()) * error).copysign(n.dot(w))
 }
 
-/// The largest of the three colour channels.
-#[inline]
-pub fn max_channel(c: Vec3) -> f32 {
-    c.max_element()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -72,6 +72,21 @@ fn the_path_says_what_a_surface_looks_like() {
     assert!(window.query_all_by_label_contains("V = 0.").next().is_some(), "what the edge lets through");
 }
 
+/// A scene that is opened while the one before is paused is rendered, not left at a part of its first pass.
+#[test]
+fn a_new_scene_is_not_paused() {
+    let mut window = cornell();
+    window.state_mut().state_mut().paused = true;
+    window.run_steps(3);
+    assert!(window.state().live().engine().expect("an engine").paused(), "the control: the pause was taken up");
+    window.state_mut().state_mut().open = Some(Opening::of("furnace"));
+    let whole = |app: &App| {
+        let named = app.live().scene().is_some_and(|scene| scene.name == "furnace");
+        named && app.live().loading().is_none() && app.live().frame().is_some_and(|frame| frame.stats.spp >= 1.0)
+    };
+    until(&mut window, "a whole pass of the new scene", |app| whole(app) && !app.state().paused);
+}
+
 #[test]
 fn the_scenes_in_a_file_are_in_the_menu() {
     let mut glb = Glb::new("two");
