@@ -7,6 +7,7 @@
 //! 6  ui cli
 //! 5  report
 //! 4  engine
+//! 3  gpu
 //! 2  bdpt
 //! 1  scene film
 //! 0  math rng layout
@@ -17,6 +18,7 @@ pub mod bdpt;
 pub mod cli;
 pub mod engine;
 pub mod film;
+pub mod gpu;
 pub mod layout;
 pub mod math;
 pub mod report;

@@ -25,7 +25,7 @@ const HOMES: &[(&str, &[&str])] = &[
     ("image", &["film/", "scene/"]),
     ("indicatif", &["cli/"]),
     ("obvhs", &["scene/bvh.rs"]),
-    ("rayon", &["bdpt/", "engine.rs", "engine/", "scene/gltf/images.rs"]),
+    ("rayon", &["bdpt/", "film/", "engine.rs", "engine/", "scene/gltf/images.rs"]),
     ("wgpu", &["gpu/", "ui/"]),
     ("winit", &["ui/"]),
 ];

@@ -46,6 +46,11 @@ pub struct LayerId {
 }
 
 impl LayerId {
+    /// Its number among the layers of its kind.
+    pub fn number(self) -> usize {
+        self.layer
+    }
+
     /// Its mean at a pixel.
     #[inline]
     pub fn mean(self, means: &Means, pixel: usize) -> Vec3 {
@@ -108,6 +113,16 @@ impl Plan {
     /// The strategies that run, in index order.
     pub fn strategies(&self) -> impl Iterator<Item = Strategy> + '_ {
         self.strategies.iter().map(|(strategy, _)| *strategy)
+    }
+
+    /// Most vertices that a light subpath needs.
+    pub fn light_vertices(&self) -> usize {
+        self.light_vertices
+    }
+
+    /// Most vertices that an eye subpath needs.
+    pub fn eye_vertices(&self) -> usize {
+        self.eye_vertices
     }
 
     /// Where a strategy's image is in the film; `None` if it is not kept.

@@ -123,6 +123,16 @@ impl StrategySet {
         self.0[index / 64] >> (index % 64) & 1 == 1
     }
 
+    /// A bit per [`Strategy::index`], 32 to a word, the lowest first; zeros follow.
+    pub fn words(&self) -> [[u32; 4]; 18] {
+        let mut words = [[0; 4]; 18];
+        for (i, word) in self.0.iter().enumerate() {
+            words[i / 2][i % 2 * 2] = *word as u32;
+            words[i / 2][i % 2 * 2 + 1] = (*word >> 32) as u32;
+        }
+        words
+    }
+
     /// The row of paths of `edges` edges: bit s is strategy (s, edges + 1 − s).
     #[inline]
     pub fn row(&self, edges: u32) -> u128 {

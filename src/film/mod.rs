@@ -10,6 +10,7 @@ pub mod save;
 pub mod tonemap;
 
 use crate::math::Vec3;
+use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Most quanta that a 64-bit counter may hold in a pass: half of what it can, so that no thread meets it wrapped around.
@@ -128,6 +129,25 @@ impl Film {
         }
     }
 
+    /// Adds sums of the pixel layers of the rows from `first` on, made elsewhere: [layer][channel][pixel].
+    pub fn absorb_pixels(&mut self, first: u32, rows: u32, sums: &[f32]) {
+        let (width, layers) = (self.size[0] as usize, self.layers.pixel);
+        absorb(&mut self.sums, (width, layers), (first, rows), |at| f64::from(sums[at]));
+    }
+
+    /// Adds quanta of the splat layers of the rows from `first` on, made elsewhere: [layer][channel][pixel], low word and high
+    /// word.
+    pub fn absorb_splats(&mut self, first: u32, rows: u32, words: &[u32]) {
+        let (width, layers, quantum) = (self.size[0] as usize, self.layers.splat, f64::from(self.quantum));
+        let value = |at: usize| (u64::from(words[2 * at]) | u64::from(words[2 * at + 1]) << 32) as f64 * quantum;
+        absorb(&mut self.folded, (width, layers), (first, rows), value);
+    }
+
+    /// Every pixel of each row has so many samples more.
+    pub fn count_samples(&mut self, rows: &[u32]) {
+        self.row_samples.iter_mut().zip(rows).for_each(|(samples, more)| *samples += more);
+    }
+
     /// The means, for someone who looks at the film as it is now.
     pub fn means(&self) -> Means<'_> {
         let passes = self.mean_samples();
@@ -146,6 +166,18 @@ impl Film {
     pub fn mean_samples(&self) -> f64 {
         self.row_samples.iter().map(|&n| f64::from(n)).sum::<f64>() / self.row_samples.len().max(1) as f64
     }
+}
+
+/// Adds the rows' values, [layer][channel][pixel], to sums that are [pixel][layer][channel].
+fn absorb(sums: &mut [f64], (width, layers): (usize, usize), (first, rows): (u32, u32), value: impl Fn(usize) -> f64 + Sync) {
+    let (stride, pixels) = (width * layers * 3, rows as usize * width);
+    let rows = sums.par_chunks_mut(stride.max(1)).skip(first as usize).take(rows as usize).enumerate();
+    rows.for_each(|(row, sums)| {
+        for number in 0..layers * 3 {
+            let from = number * pixels + row * width;
+            sums.iter_mut().skip(number).step_by(layers * 3).zip(from..).for_each(|(sum, at)| *sum += value(at));
+        }
+    });
 }
 
 /// Sums over counts, per layer and pixel; pixels are counted row by row from the top left.

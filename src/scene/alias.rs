@@ -1,7 +1,7 @@
 //! Choosing one of many by their weights in constant time (Walker 1977, Vose 1991): pick a cell, keep it or take its alias.
 //!
 //! ```text
-//! P(i) = ( threshold_i + Σ_{alias_j = i} (1 − threshold_j) ) / N          N = number of cells, a power of two
+//! P(i) = ( threshold_i + Σ_{other_j = i} (1 − threshold_j) ) / N          N = number of cells, a power of two
 //! ```
 //!
 //! Random numbers have 24 bits. N is a power of two and every threshold a multiple of 2⁻²⁴, so the table chooses with exactly
@@ -19,7 +19,7 @@ shared_struct! {
         /// Below it, the cell's own number is chosen.
         pub threshold: f32,
         /// Otherwise this one.
-        pub alias: u32,
+        pub other: u32,
     }
 }
 
@@ -40,12 +40,12 @@ impl AliasTable {
         // Mean 1 over the cells; what is above gives to what is below.
         let mut mass: Vec<f64> = weights.iter().map(|w| w / sum * n as f64).collect();
         mass.resize(n, 0.0);
-        let mut cells: Vec<AliasCell> = (0..n as u32).map(|alias| AliasCell { threshold: 1.0, alias }).collect();
+        let mut cells: Vec<AliasCell> = (0..n as u32).map(|other| AliasCell { threshold: 1.0, other }).collect();
         let (mut small, mut large): (Vec<usize>, Vec<usize>) = (0..n).partition(|&i| mass[i] < 1.0);
         while let (Some(&poor), Some(&rich)) = (small.last(), large.last()) {
             small.pop();
             let threshold = (mass[poor] * UNIT).ceil() / UNIT;
-            cells[poor] = AliasCell { threshold: threshold as f32, alias: rich as u32 };
+            cells[poor] = AliasCell { threshold: threshold as f32, other: rich as u32 };
             mass[rich] -= 1.0 - threshold;
             if mass[rich] < 1.0 {
                 large.pop();
@@ -55,12 +55,12 @@ impl AliasTable {
         // Rounding may leave some of either kind: the large ones keep their whole cell; a small one of weight 0 must not.
         let heaviest = (0..weights.len()).max_by(|&a, &b| weights[a].total_cmp(&weights[b])).unwrap_or(0);
         for &i in small.iter().filter(|&&i| i >= weights.len() || weights[i] == 0.0) {
-            cells[i] = AliasCell { threshold: 0.0, alias: heaviest as u32 };
+            cells[i] = AliasCell { threshold: 0.0, other: heaviest as u32 };
         }
         let mut pmf = vec![0.0f64; n];
         for (i, cell) in cells.iter().enumerate() {
             pmf[i] += f64::from(cell.threshold);
-            pmf[cell.alias as usize] += 1.0 - f64::from(cell.threshold);
+            pmf[cell.other as usize] += 1.0 - f64::from(cell.threshold);
         }
         (Self { cells }, pmf[..weights.len()].iter().map(|p| (p / n as f64) as f32).collect())
     }
@@ -71,7 +71,7 @@ impl AliasTable {
         // Exact: the number of cells is a power of two.
         let index = (u.x * self.cells.len() as f32) as u32;
         match self.cells.get(index as usize) {
-            Some(cell) if u.y >= cell.threshold => cell.alias,
+            Some(cell) if u.y >= cell.threshold => cell.other,
             _ => index,
         }
     }

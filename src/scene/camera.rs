@@ -67,6 +67,21 @@ pub struct View {
     pub pdf_disk_area: f32,
 }
 
+/// The axes of a picture, for another renderer.
+#[derive(Clone, Copy, Debug)]
+pub struct Axes {
+    /// To the right (unit).
+    pub right: Vec3,
+    /// To the top (unit).
+    pub up: Vec3,
+    /// Half the film on the plane at distance 1.
+    pub half_extent: Vec2,
+    /// Its reciprocal.
+    pub inverse_half_extent: Vec2,
+    /// 1/focus distance, m⁻¹; 0 of a pinhole.
+    pub inverse_focus: f32,
+}
+
 impl View {
     /// The view of `scene` through `camera` on a film of `width` × `height` pixels.
     pub fn new(scene: &Scene, camera: &Camera, [width, height]: [u32; 2]) -> Self {
@@ -93,6 +108,12 @@ impl View {
             clearance: 4.0 * f32::EPSILON * (camera.position.abs().max_element() + scene.sphere.radius),
             pdf_disk_area: 1.0 / (PI * sphere.radius * sphere.radius),
         }
+    }
+
+    /// What the picture's axes are made of.
+    pub fn axes(&self) -> Axes {
+        let Self { right, up, half_extent, inverse_half_extent, inverse_focus, .. } = *self;
+        Axes { right, up, half_extent, inverse_half_extent, inverse_focus }
     }
 
     /// Is the lens a disk (else a pinhole)?

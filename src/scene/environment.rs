@@ -68,6 +68,11 @@ impl Environment {
         Self { width, height, texels, choice, integral, rotation: (rotation / 360.0).rem_euclid(1.0) as f32 }
     }
 
+    /// How far it is turned, counter-clockwise seen from above, in turns.
+    pub fn rotation(&self) -> f32 {
+        self.rotation
+    }
+
     /// Does any light come from it?
     pub fn emits(&self) -> bool {
         !self.choice.cells.is_empty()

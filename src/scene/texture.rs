@@ -112,6 +112,11 @@ static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
     })
 });
 
+/// Linear values of the 256 sRGB codes.
+pub fn linear_values() -> &'static [f32; 256] {
+    &LINEAR
+}
+
 impl Textures {
     /// Puts images one after the other.
     pub fn new(images: Vec<Image>, uses: &[TextureUse]) -> Self {

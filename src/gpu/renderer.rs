@@ -1,0 +1,449 @@
+//! A rendering on the device: submits batches, a slice of time each, and folds what they sum up into a film.
+
+use super::kernels::{Kernels, Layouts, Specialisation};
+use super::params::{Batch, Params, SplatRecord, Task};
+use super::scene::SceneBuffers;
+use super::shader::Source;
+use super::tiles::{FILM_BUDGET, Need, Tiles, rows_of};
+use super::{Gpu, GpuError, HEADER};
+use crate::bdpt::Vertex;
+use crate::bdpt::render::Counts;
+use crate::film::Film;
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+use web_time::Instant;
+
+/// Most passes that are summed on the device before they are folded into the film.
+pub const MOST_PASSES: u32 = 1024;
+/// Most batches in a submission.
+const MOST_BATCHES: usize = 256;
+/// Bytes from one batch's uniform to the next.
+const BATCH_STRIDE: u64 = 256;
+/// Pairs of the first batches, whose speed nobody knows yet.
+const FIRST_PAIRS: u32 = 8192;
+/// Invocations of a workgroup.
+const WORKGROUP: u32 = 64;
+
+/// When a submission ended; `None` until it has.
+type Done = Arc<Mutex<Option<Instant>>>;
+
+/// Work that the device has not finished, or had not when last looked at.
+#[derive(Debug)]
+struct InFlight {
+    pairs: u64,
+    batches: usize,
+    began: Instant,
+    done: Done,
+    index: wgpu::SubmissionIndex,
+}
+
+/// What the kernels are bound to.
+#[derive(Debug)]
+struct Bound {
+    /// Group 0 of the trace kernels, for each tile.
+    trace: Vec<wgpu::BindGroup>,
+    /// Group 0 of resolve.
+    resolve: wgpu::BindGroup,
+    /// Group 1 of resolve, for each tile.
+    splats: Vec<wgpu::BindGroup>,
+}
+
+/// A rendering on the device.
+#[derive(Debug)]
+pub struct Renderer {
+    gpu: Gpu,
+    layouts: Layouts,
+    kernels: Kernels,
+    bound: Bound,
+    tiles: Tiles,
+    /// Pixel layers of each tile.
+    pixel_layers: Vec<wgpu::Buffer>,
+    /// Splat layers of each tile.
+    splat_layers: Vec<wgpu::Buffer>,
+    output: wgpu::Buffer,
+    batch_buffer: wgpu::Buffer,
+    staging: wgpu::Buffer,
+    batches: Vec<(usize, Batch)>,
+    runs: Runs,
+    /// Pass and batch that come next.
+    pass: u32,
+    next: usize,
+    in_flight: VecDeque<InFlight>,
+    /// Samples of each row that are not in the film yet.
+    rows: Vec<u32>,
+    pairs_per_second: f64,
+    seconds_per_batch: f64,
+    slice: Duration,
+    bytes: u64,
+}
+
+/// Which kernels have anything to do.
+#[derive(Clone, Copy, Debug)]
+struct Runs {
+    light: bool,
+    eye: bool,
+    splats: bool,
+}
+
+impl Renderer {
+    /// Uploads a task and compiles the kernels for any scene; one submission is to take about `slice`.
+    ///
+    /// # Errors
+    /// If something does not fit the device, or the source does not compile.
+    pub async fn new(gpu: &Gpu, task: &Task<'_>, source: &Source, quantum: f32, slice: Duration) -> Result<Self, GpuError> {
+        let layouts = Layouts::new(gpu);
+        let kernels = Kernels::compile(gpu, &layouts, source, Specialisation::GENERAL).await?;
+        Self::with_kernels(gpu, task, (layouts, kernels), quantum, slice).await
+    }
+
+    /// The same with kernels that are compiled already; they must fit the scene.
+    ///
+    /// # Errors
+    /// If something does not fit the device.
+    pub async fn with_kernels(
+        gpu: &Gpu,
+        task: &Task<'_>,
+        (layouts, kernels): (Layouts, Kernels),
+        quantum: f32,
+        slice: Duration,
+    ) -> Result<Self, GpuError> {
+        let plan = task.plan;
+        let splats = plan.strategies().filter(|x| !x.stays_in_pixel()).count() as u64;
+        let need = Need { size: task.view.size, layers: plan.layers, light_vertices: plan.light_vertices() as u64, splats };
+        let binding = gpu.limits.max_storage_buffer_binding_size.min(gpu.limits.max_buffer_size);
+        let tiles = Tiles::new(&need, binding, FILM_BUDGET)?;
+        let scene = SceneBuffers::new(gpu, task.scene, plan, task.settings.max_edges).await?;
+        let params = Params::new(task, &scene.places, quantum);
+
+        let pairs = u64::from(tiles.batch_rows) * u64::from(task.view.size[0]);
+        let vertex_bytes = pairs * need.light_vertices.max(1) * size_of::<Vertex>() as u64;
+        let record_bytes = HEADER + pairs * splats.max(1) * size_of::<SplatRecord>() as u64;
+        let list = tiles.list();
+        let tile_bytes = |per_pixel: u64, rows: u32| u64::from(tiles.pixels(rows)) * per_pixel;
+        let staging_bytes = HEADER + tile_bytes(tiles.pixel_bytes, tiles.rows).max(tile_bytes(tiles.splat_bytes, tiles.rows));
+        let storage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
+        let uniform = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let read = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
+        let buffer = |label, size, usage| {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
+        };
+        let made = gpu
+            .guarded("the film", || {
+                let per_tile = |label, bytes| list.iter().map(|&(_, rows)| buffer(label, tile_bytes(bytes, rows), storage)).collect::<Vec<_>>();
+                (
+                    [per_tile("pixel layers", tiles.pixel_bytes), per_tile("splat layers", tiles.splat_bytes)],
+                    [
+                        buffer("light vertices", vertex_bytes, storage),
+                        buffer("output", record_bytes, storage),
+                        buffer("params", size_of::<Params>() as u64, uniform),
+                        buffer("batches", BATCH_STRIDE * MOST_BATCHES as u64, uniform),
+                        buffer("staging", staging_bytes, read),
+                    ],
+                )
+            })
+            .await?;
+        let ([pixel_layers, splat_layers], [vertices, output, params_buffer, batch_buffer, staging]) = made;
+        gpu.queue.write_buffer(&params_buffer, 0, bytemuck::bytes_of(&params));
+        let entries = Entries { scene: &scene, vertices: &vertices, output: &output, params: &params_buffer, batch: &batch_buffer };
+        let bound = gpu.guarded("its bindings", || entries.bind(gpu, &layouts, &pixel_layers, &splat_layers)).await?;
+
+        let film: u64 = pixel_layers.iter().chain(&splat_layers).map(wgpu::Buffer::size).sum();
+        let runs = Runs {
+            light: plan.light_vertices() > 0,
+            eye: plan.strategies().any(|x| x.stays_in_pixel()),
+            splats: splats > 0 && !task.scene.lights.list.is_empty(),
+        };
+        let batches = tiles.batches((FIRST_PAIRS / task.view.size[0]).max(1));
+        Ok(Self {
+            gpu: gpu.clone(),
+            layouts,
+            kernels,
+            bound,
+            rows: vec![0; task.view.size[1] as usize],
+            bytes: film + vertex_bytes + record_bytes + staging_bytes + scene.bytes,
+            tiles,
+            pixel_layers,
+            splat_layers,
+            output,
+            batch_buffer,
+            staging,
+            batches,
+            runs,
+            pass: 0,
+            next: 0,
+            in_flight: VecDeque::new(),
+            pairs_per_second: 0.0,
+            seconds_per_batch: 0.0,
+            slice,
+        })
+    }
+
+    /// The device it renders on.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// The layouts and kernels, for another rendering.
+    pub fn kernels(&self) -> (Layouts, Kernels) {
+        (self.layouts.clone(), self.kernels.clone())
+    }
+
+    /// Goes on with other kernels, which must fit the scene.
+    pub fn swap_kernels(&mut self, kernels: Kernels) {
+        self.kernels = kernels;
+    }
+
+    /// Bytes on the device.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    /// Passes whose batches have all been submitted.
+    pub fn passes(&self) -> u32 {
+        self.pass
+    }
+
+    /// The part of the current pass that has been submitted, 0…1.
+    pub fn pass_fraction(&self) -> f64 {
+        self.next as f64 / self.batches.len() as f64
+    }
+
+    /// Mean time of a batch, s; 0 if none has ended yet.
+    pub fn seconds_per_batch(&self) -> f64 {
+        self.seconds_per_batch
+    }
+
+    /// Begins at this pass: for a rendering whose first passes are in the film already.
+    pub fn start_at(&mut self, pass: u32) {
+        (self.pass, self.next) = (pass, 0);
+    }
+
+    /// Submits work for about `budget`, up to the end of pass `limit`, and waits until all but the last slice of it is done. At
+    /// most [`MOST_PASSES`] can wait to be collected.
+    ///
+    /// # Errors
+    /// If the device is lost or refuses something.
+    pub async fn step(&mut self, budget: Duration, limit: u32) -> Result<(), GpuError> {
+        let start = Instant::now();
+        let limit = limit.min((self.pass + MOST_PASSES).saturating_sub(self.uncollected()));
+        while self.pass < limit {
+            self.submit(limit)?;
+            while self.in_flight.len() > 1 {
+                self.wait().await?;
+            }
+            if start.elapsed() >= budget {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Passes that are not in the film yet.
+    pub fn uncollected(&self) -> u32 {
+        self.rows.iter().copied().max().unwrap_or(0)
+    }
+
+    /// Submits one slice of work.
+    fn submit(&mut self, limit: u32) -> Result<(), GpuError> {
+        self.gpu.check()?;
+        if self.next == 0 {
+            self.cut();
+        }
+        let typical = f64::from(self.batches[0].1.pairs);
+        let wanted = (self.pairs_per_second * self.slice.as_secs_f64() / typical).floor().clamp(1.0, MOST_BATCHES as f64) as usize;
+        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let (mut pairs, mut batches, mut uniforms) = (0, 0, Vec::new());
+        while batches < wanted && self.pass < limit {
+            let (tile, batch) = self.batches[self.next];
+            let batch = Batch { pass_number: self.pass, ..batch };
+            // Splats go to every tile, each with its own numbers.
+            let needed = 1 + if self.runs.splats && self.tiles.list().len() > 1 { self.tiles.list().len() } else { 0 };
+            if uniforms.len() + needed > MOST_BATCHES {
+                break;
+            }
+            self.encode(&mut encoder, tile, &batch, &mut uniforms);
+            rows_of(&batch, self.tiles.size[0]).for_each(|row| self.rows[row as usize] += 1);
+            pairs += u64::from(batch.pairs);
+            batches += 1;
+            self.next += 1;
+            if self.next == self.batches.len() {
+                (self.pass, self.next) = (self.pass + 1, 0);
+                break;
+            }
+        }
+        let mut bytes = vec![0u8; uniforms.len() * BATCH_STRIDE as usize];
+        for (slot, batch) in bytes.chunks_mut(BATCH_STRIDE as usize).zip(&uniforms) {
+            slot[..size_of::<Batch>()].copy_from_slice(bytemuck::bytes_of(batch));
+        }
+        self.gpu.queue.write_buffer(&self.batch_buffer, 0, &bytes);
+        let began = Instant::now();
+        let index = self.gpu.queue.submit([encoder.finish()]);
+        let done = Done::default();
+        let ended = Arc::clone(&done);
+        self.gpu.queue.on_submitted_work_done(move || {
+            *ended.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
+        });
+        self.in_flight.push_back(InFlight { pairs, batches, began, done, index });
+        Ok(())
+    }
+
+    /// One batch: light walks, eye walks and connections, splats.
+    fn encode(&self, encoder: &mut wgpu::CommandEncoder, tile: usize, batch: &Batch, uniforms: &mut Vec<Batch>) {
+        let offset = |uniforms: &[Batch]| (uniforms.len() as u64 * BATCH_STRIDE) as u32;
+        encoder.clear_buffer(&self.output, 0, Some(4));
+        let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        let groups = batch.pairs.div_ceil(WORKGROUP);
+        let mut own = offset(uniforms);
+        uniforms.push(*batch);
+        compute.set_bind_group(0, &self.bound.trace[tile], &[own]);
+        if self.runs.light {
+            compute.set_pipeline(&self.kernels.light);
+            compute.dispatch_workgroups(groups, 1, 1);
+        }
+        if self.runs.eye {
+            compute.set_pipeline(&self.kernels.eye);
+            compute.dispatch_workgroups(groups, 1, 1);
+        }
+        if self.runs.splats {
+            let tiles = self.tiles.list();
+            compute.set_pipeline(&self.kernels.resolve);
+            for (target, &(first, rows)) in tiles.iter().enumerate() {
+                if tiles.len() > 1 {
+                    own = offset(uniforms);
+                    uniforms.push(Batch { tile_row: first, tile_rows: rows, tile_pixels: self.tiles.pixels(rows), ..*batch });
+                }
+                compute.set_bind_group(0, &self.bound.resolve, &[own]);
+                compute.set_bind_group(1, &self.bound.splats[target], &[]);
+                compute.dispatch_workgroups(groups, 1, 1);
+            }
+        }
+    }
+
+    /// Cuts the next pass so that a batch takes about a slice.
+    fn cut(&mut self) {
+        if self.pairs_per_second > 0.0 {
+            let pairs = self.pairs_per_second * self.slice.as_secs_f64();
+            self.batches = self.tiles.batches((pairs / f64::from(self.tiles.size[0])) as u32);
+        }
+    }
+
+    /// Waits for the oldest submission.
+    async fn wait(&mut self) -> Result<(), GpuError> {
+        let Some(oldest) = self.in_flight.pop_front() else { return Ok(()) };
+        let polled = self.gpu.device.poll(wgpu::PollType::Wait { submission_index: Some(oldest.index), timeout: None });
+        self.gpu.check()?;
+        polled.map_err(|error| GpuError::Refused(error.to_string()))?;
+        let ended = oldest.done.lock().unwrap_or_else(PoisonError::into_inner).unwrap_or_else(Instant::now);
+        let seconds = ended.saturating_duration_since(oldest.began).as_secs_f64().max(1e-6);
+        // The next one has been waiting for this one: its own time begins now.
+        if let Some(next) = self.in_flight.front_mut() {
+            next.began = next.began.max(ended);
+        }
+        let blend = |old: f64, new: f64| if old > 0.0 { 0.7 * old + 0.3 * new } else { new };
+        self.pairs_per_second = blend(self.pairs_per_second, oldest.pairs as f64 / seconds);
+        self.seconds_per_batch = blend(self.seconds_per_batch, seconds / oldest.batches.max(1) as f64);
+        Ok(())
+    }
+
+    /// Waits until everything submitted is done.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn finish(&mut self) -> Result<(), GpuError> {
+        while !self.in_flight.is_empty() {
+            self.wait().await?;
+        }
+        Ok(())
+    }
+
+    /// Moves everything summed up on the device into the film.
+    ///
+    /// # Errors
+    /// If the device is lost, or what it summed up is not to be trusted; the film is then as it was.
+    pub async fn collect(&mut self, film: &mut Film) -> Result<Counts, GpuError> {
+        self.finish().await?;
+        let header = self.read(&self.output, HEADER, true, |bytes| bytemuck::cast_slice::<u8, u32>(bytes).to_vec()).await?;
+        let wide = |i: usize| u64::from(header[i]) | u64::from(header[i + 1]) << 32;
+        if header[7] > 0 {
+            return Err(GpuError::WrongResult("a ray needed a deeper stack than the hierarchy's depth"));
+        }
+        if header[8] > 0 {
+            return Err(GpuError::WrongResult("its driver ended a loop too early; choose fewer edges"));
+        }
+        for (tile, (first, rows)) in self.tiles.list().into_iter().enumerate() {
+            let (pixels, splats) = (&self.pixel_layers[tile], &self.splat_layers[tile]);
+            if self.runs.eye {
+                self.read(pixels, pixels.size(), true, |bytes| film.absorb_pixels(first, rows, bytemuck::cast_slice(bytes))).await?;
+            }
+            if self.runs.splats {
+                self.read(splats, splats.size(), true, |bytes| film.absorb_splats(first, rows, bytemuck::cast_slice(bytes))).await?;
+            }
+        }
+        film.count_samples(&self.rows);
+        self.rows.fill(0);
+        Ok(Counts { rays_closest: wide(1), rays_shadow: wide(3), non_finite: header[5].into(), saturated: header[6].into() })
+    }
+
+    /// Reads the first `size` bytes of a buffer, and sets them to zero after if `clear`.
+    async fn read<T>(&self, buffer: &wgpu::Buffer, size: u64, clear: bool, look: impl FnOnce(&[u8]) -> T) -> Result<T, GpuError> {
+        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_buffer_to_buffer(buffer, 0, &self.staging, 0, size);
+        if clear {
+            encoder.clear_buffer(buffer, 0, Some(size));
+        }
+        self.gpu.queue.submit([encoder.finish()]);
+        let mapped = Arc::new(Mutex::new(None));
+        let result = Arc::clone(&mapped);
+        self.staging.map_async(wgpu::MapMode::Read, 0..size, move |outcome| {
+            *result.lock().unwrap_or_else(PoisonError::into_inner) = Some(outcome);
+        });
+        let polled = self.gpu.device.poll(wgpu::PollType::Wait { submission_index: None, timeout: None });
+        self.gpu.check()?;
+        polled.map_err(|error| GpuError::Refused(error.to_string()))?;
+        match mapped.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            Some(Ok(())) => {}
+            outcome => return Err(GpuError::Refused(format!("reading back: {outcome:?}"))),
+        }
+        let view = self.staging.get_mapped_range(0..size).map_err(|error| GpuError::Refused(error.to_string()))?;
+        let seen = look(&view);
+        drop(view);
+        self.staging.unmap();
+        Ok(seen)
+    }
+}
+
+/// What is bound beside the film.
+struct Entries<'a> {
+    scene: &'a SceneBuffers,
+    vertices: &'a wgpu::Buffer,
+    output: &'a wgpu::Buffer,
+    params: &'a wgpu::Buffer,
+    batch: &'a wgpu::Buffer,
+}
+
+impl Entries<'_> {
+    fn bind(&self, gpu: &Gpu, layouts: &Layouts, pixel_layers: &[wgpu::Buffer], splat_layers: &[wgpu::Buffer]) -> Bound {
+        let entry = |binding: u32, buffer: &wgpu::Buffer| (binding, buffer.clone());
+        let group = |layout, buffers: &[(u32, wgpu::Buffer)]| {
+            let entries: Vec<_> = buffers
+                .iter()
+                .map(|(binding, buffer)| {
+                    let size = if *binding == 9 { std::num::NonZero::new(size_of::<Batch>() as u64) } else { None };
+                    let resource = wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size });
+                    wgpu::BindGroupEntry { binding: *binding, resource }
+                })
+                .collect();
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+        };
+        let common = [entry(0, self.params), entry(8, self.output), entry(9, self.batch)];
+        let scene = self.scene.buffers.iter().zip(1..).map(|(buffer, binding)| entry(binding, buffer));
+        let traced: Vec<_> = common.iter().cloned().chain(scene).chain([entry(6, self.vertices)]).collect();
+        let trace = |film: &wgpu::Buffer| group(&layouts.trace, &[traced.clone(), vec![entry(7, film)]].concat());
+        Bound {
+            trace: pixel_layers.iter().map(trace).collect(),
+            resolve: group(&layouts.resolve, &[&common[..], &[entry(3, &self.scene.buffers[2])]].concat()),
+            splats: splat_layers.iter().map(|splats| group(&layouts.splats, &[entry(0, splats)])).collect(),
+        }
+    }
+}

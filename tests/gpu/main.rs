@@ -1,0 +1,22 @@
+//! The GPU renderer is the same estimator as the CPU's: declarations, functions, steps, paths, images. On a software adapter
+//! where there is no other; without any, the tests say SKIPPED (with `BDPT_REQUIRE_GPU=1` they fail).
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs, reason = "tests may panic")]
+
+#[allow(dead_code, reason = "made for the ladder, of which this is a rung")]
+#[path = "../ladder/emitters_scenes.rs"]
+mod emitters_scenes;
+mod harness;
+mod images;
+mod table;
+mod twins;
+#[allow(dead_code, reason = "made for the ladder, of which this is a rung")]
+#[path = "../ladder/scenes.rs"]
+mod scenes;
+#[path = "../common/skip.rs"]
+mod skip;
+#[allow(dead_code, reason = "made for the ladder, of which this is a rung")]
+#[path = "../ladder/stats.rs"]
+mod stats;
+#[allow(dead_code, reason = "made for the ladder, of which this is a rung")]
+#[path = "../ladder/surface_scenes.rs"]
+mod surface_scenes;

@@ -1,0 +1,98 @@
+//! Runs a function of the kernels over a table: rows of numbers go in, rows of numbers come out.
+//!
+//! `film` holds both, as it is the one binding that takes any numbers; the other bindings are a real scene's.
+
+use crate::harness::Work;
+use bdpt_explorer::gpu::shader::Source;
+use bdpt_explorer::gpu::{Batch, Gpu, Layouts, Params, SceneBuffers};
+use pollster::block_on;
+
+/// Helpers of a table's kernel; `inputs` and `outputs` are the numbers of a row.
+const HELPERS: &str = "
+fn in_f(row: u32, k: u32) -> f32 { return film[row * INPUTS + k]; }
+fn in_u(row: u32, k: u32) -> u32 { return bitcast<u32>(film[row * INPUTS + k]); }
+fn in_v(row: u32, k: u32) -> vec3<f32> { return vec3<f32>(in_f(row, k), in_f(row, k + 1u), in_f(row, k + 2u)); }
+fn in_2(row: u32, k: u32) -> vec2<f32> { return vec2<f32>(in_f(row, k), in_f(row, k + 1u)); }
+fn out_f(row: u32, k: u32, value: f32) { film[batch.pairs * INPUTS + row * OUTPUTS + k] = value; }
+fn out_u(row: u32, k: u32, value: u32) { out_f(row, k, bitcast<f32>(value)); }
+fn out_v(row: u32, k: u32, value: vec3<f32>) { out_f(row, k, value.x); out_f(row, k + 1u, value.y); out_f(row, k + 2u, value.z); }
+fn out_2(row: u32, k: u32, value: vec2<f32>) { out_f(row, k, value.x); out_f(row, k + 1u, value.y); }
+@compute @workgroup_size(64)
+fn run_table(@builtin(global_invocation_id) global: vec3<u32>) { if global.x < batch.pairs { run_row(global.x); } }
+";
+
+/// A scene on the device, for functions that read it.
+pub struct Table<'a> {
+    pub gpu: &'a Gpu,
+    pub work: &'a Work,
+    /// Replaces text of the source: for negative controls.
+    pub change: Option<(&'a str, &'a str)>,
+}
+
+impl Table<'_> {
+    /// Runs `body` (WGSL that declares `fn run_row(row: u32)`) over rows of `inputs` numbers each; gives rows of `outputs`.
+    pub fn run(&self, body: &str, inputs: usize, outputs: usize, table: &[f32]) -> Vec<Vec<f32>> {
+        let (gpu, work) = (self.gpu, self.work);
+        let rows = table.len() / inputs;
+        let mut source = Source::kernels(work.job.scene.bvh.depth);
+        if let Some((from, to)) = self.change {
+            assert!(source.text.contains(from), "the source no longer says {from}");
+            source.text = source.text.replace(from, to);
+        }
+        source.push("table", &format!("const INPUTS: u32 = {inputs}u;\nconst OUTPUTS: u32 = {outputs}u;\n{HELPERS}\n{body}"));
+        let layouts = Layouts::new(gpu);
+        let module = block_on(source.compile(gpu)).unwrap();
+        let descriptor = wgpu::PipelineLayoutDescriptor { label: None, bind_group_layouts: &[Some(&layouts.trace)], immediate_size: 0 };
+        let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: None,
+            layout: Some(&gpu.device.create_pipeline_layout(&descriptor)),
+            module: &module,
+            entry_point: Some("run_table"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        });
+        let scene = block_on(SceneBuffers::new(gpu, &work.job.scene, &work.plan, work.job.settings.max_edges)).unwrap();
+        let params = Params::new(&work.task(), &scene.places, work.quantum);
+        let batch = Batch { pairs: rows as u32, row_step: 1, ..bytemuck::Zeroable::zeroed() };
+        let buffer = |size: usize, bytes: &[u8], usage| {
+            let usage = usage | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
+            let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor { label: None, size: size as u64, usage, mapped_at_creation: false });
+            gpu.queue.write_buffer(&buffer, 0, bytes);
+            buffer
+        };
+        let (storage, uniform) = (wgpu::BufferUsages::STORAGE, wgpu::BufferUsages::UNIFORM);
+        let film = buffer((table.len() + rows * outputs) * 4, bytemuck::cast_slice(table), storage);
+        let params = buffer(size_of::<Params>(), bytemuck::bytes_of(&params), uniform);
+        let batch = buffer(size_of::<Batch>(), bytemuck::bytes_of(&batch), uniform);
+        let (vertices, output) = (buffer(1 << 16, &[], storage), buffer(1 << 16, &[], storage));
+        let [nodes, triangles, tables, attributes, texels] = &scene.buffers;
+        let all = [&params, nodes, triangles, tables, attributes, texels, &vertices, &film, &output, &batch];
+        let entries: Vec<_> =
+            all.iter().zip(0..).map(|(buffer, binding)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() }).collect();
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout: &layouts.trace, entries: &entries });
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group, &[0]);
+        pass.dispatch_workgroups((rows as u32).div_ceil(64), 1, 1);
+        drop(pass);
+        let staging = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: (rows * outputs * 4) as u64,
+            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        encoder.copy_buffer_to_buffer(&film, (table.len() * 4) as u64, &staging, 0, (rows * outputs * 4) as u64);
+        gpu.queue.submit([encoder.finish()]);
+        staging.map_async(wgpu::MapMode::Read, .., |result| result.unwrap());
+        gpu.device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
+        gpu.check().unwrap();
+        let view = staging.get_mapped_range(..).unwrap();
+        bytemuck::cast_slice::<u8, f32>(&view).chunks(outputs).map(<[f32]>::to_vec).collect()
+    }
+}
+
+/// A word as a number that only carries its bits.
+pub fn bits(word: u32) -> f32 {
+    f32::from_bits(word)
+}
