@@ -5,16 +5,14 @@ override HAS_ALPHA: bool = true;
 override HAS_TEXTURES: bool = true;
 override HAS_GLOSSY: bool = true;
 
-@group(0) @binding(0) var<uniform> params: Params;
+@group(0) @binding(0) var<storage, read> control: Control;
 @group(0) @binding(1) var<storage, read> nodes: array<Node>;
 @group(0) @binding(2) var<storage, read> triangles: array<Triangle>;
 @group(0) @binding(3) var<storage, read> tables: array<vec4<u32>>;
-@group(0) @binding(4) var<storage, read> attributes: array<vec4<u32>>;
-@group(0) @binding(5) var<storage, read> texels: array<u32>;
-@group(0) @binding(6) var<storage, read_write> light_vertices: array<Vertex>;
-@group(0) @binding(7) var<storage, read_write> film: array<f32>;
-@group(0) @binding(8) var<storage, read_write> output: Output;
-@group(0) @binding(9) var<uniform> batch: Batch;
+@group(0) @binding(4) var<storage, read> texels: array<u32>;
+@group(0) @binding(5) var<storage, read_write> light_vertices: array<Vertex>;
+@group(0) @binding(6) var<storage, read_write> film: array<f32>;
+@group(0) @binding(7) var<storage, read_write> output: Output;
 
 struct Output {
     records_count: atomic<u32>,

@@ -10,20 +10,20 @@ const MAX_HIGH: u32 = 0x80000000u;
 fn resolve(@builtin(global_invocation_id) global: vec3<u32>) {
     let count = min(atomicLoad(&output.records_count), arrayLength(&output.records));
     // The grid has a lane for each pair, and some more to fill the last workgroup.
-    let lanes = (batch.pairs + 63u) / 64u * 64u;
+    let lanes = (control.batch.pairs + 63u) / 64u * 64u;
     for (var i = global.x; i < count; i += lanes) {
         resolve_record(output.records[i]);
     }
 }
 
 fn resolve_record(record: SplatRecord) {
-    let first = batch.tile_row * params.size.x;
-    if record.pixel < first || record.pixel - first >= batch.tile_pixels {
+    let first = control.batch.tile_row * control.params.size.x;
+    if record.pixel < first || record.pixel - first >= control.batch.tile_pixels {
         return;
     }
-    let id = SampleId(record.source & 0xffffu, record.source >> 16u, batch.pass_number, params.seed);
+    let id = SampleId(record.source & 0xffffu, record.source >> 16u, control.batch.pass_number, control.params.seed);
     let u = numbers(id, BLOCK_SPLAT + record.s).xyz;
-    let slot = tables[params.slots + record.strategy];
+    let slot = tables[control.params.slots + record.strategy];
     let weighted = record.value * record.mis_weight;
     add_to_splats(0u, record.pixel - first, weighted, u);
     add_to_splats(slot.y, record.pixel - first, weighted, u);
@@ -35,7 +35,7 @@ fn add_to_splats(layer: u32, place: u32, value: vec3<f32>, u: vec3<f32>) {
         return;
     }
     for (var c = 0u; c < 3u; c++) {
-        let at = ((layer * 3u + c) * batch.tile_pixels + place) * 2u;
+        let at = ((layer * 3u + c) * control.batch.tile_pixels + place) * 2u;
         let rounded = quanta(value[c], u[c]);
         if rounded.x == 0u && rounded.y == 0u {
             continue;
@@ -54,7 +54,7 @@ fn add_to_splats(layer: u32, place: u32, value: vec3<f32>, u: vec3<f32>) {
 
 // value / quantum, rounded stochastically, as low and high word; at most 2⁶³.
 fn quanta(value: f32, u: f32) -> vec2<u32> {
-    let q = value / params.quantum;
+    let q = value / control.params.quantum;
     if !(q < 9.223372e18) {
         return vec2<u32>(0u, MAX_HIGH);
     }

@@ -1,8 +1,7 @@
-// Reading shared structs out of `tables` and `attributes`, which hold several arrays each; the n-th of an array that begins at
-// a given vec4. (A test reads random structs back on the device, byte for byte.)
+// Reading shared structs out of `tables`, which holds several arrays; the n-th of an array that begins at a given vec4. (A test reads random structs back on the device, byte for byte.)
 
 fn load_material(index: u32) -> Material {
-    let at = params.materials + index * 6u;
+    let at = control.params.materials + index * 6u;
     let a = tables[at];
     let b = tables[at + 1u];
     let c = tables[at + 2u];
@@ -20,7 +19,7 @@ fn load_material(index: u32) -> Material {
 }
 
 fn load_light(index: u32) -> Light {
-    let at = params.lights + index * 4u;
+    let at = control.params.lights + index * 4u;
     let a = tables[at];
     let b = tables[at + 1u];
     let c = tables[at + 2u];
@@ -34,7 +33,7 @@ fn load_light(index: u32) -> Light {
 }
 
 fn load_texture(index: u32) -> Texture {
-    let at = params.textures + index * 3u;
+    let at = control.params.textures + index * 3u;
     let a = tables[at];
     let b = tables[at + 1u];
     let c = tables[at + 2u];
@@ -42,7 +41,7 @@ fn load_texture(index: u32) -> Texture {
 }
 
 fn load_texel(index: u32) -> Texel {
-    let a = tables[params.environment_texels + index];
+    let a = tables[control.params.environment_texels + index];
     return Texel(bitcast<vec3<f32>>(a.xyz), bitcast<f32>(a.w));
 }
 
@@ -55,45 +54,45 @@ fn load_alias_cell(first: u32, index: u32) -> AliasCell {
 
 // Four linear values share a vec4.
 fn load_linear(code: u32) -> f32 {
-    return bitcast<f32>(tables[params.linear + (code >> 2u)][code & 3u]);
+    return bitcast<f32>(tables[control.params.linear + (code >> 2u)][code & 3u]);
 }
 
 fn load_attributes(index: u32) -> Attributes {
-    let at = params.attributes + index * 2u;
-    let a = attributes[at];
-    let b = attributes[at + 1u];
+    let at = control.params.attributes + index * 2u;
+    let a = tables[at];
+    let b = tables[at + 1u];
     return Attributes(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);
 }
 
 fn load_normals(index: u32) -> Normals {
-    let at = params.normals + index * 3u;
-    let a = attributes[at];
-    let b = attributes[at + 1u];
-    let c = attributes[at + 2u];
+    let at = control.params.normals + index * 3u;
+    let a = tables[at];
+    let b = tables[at + 1u];
+    let c = tables[at + 2u];
     return Normals(bitcast<vec3<f32>>(a.xyz), a.w, bitcast<vec3<f32>>(b.xyz), b.w, bitcast<vec3<f32>>(c.xyz), c.w);
 }
 
 fn load_tangents(index: u32) -> Tangents {
-    let at = params.tangents + index * 3u;
-    let a = attributes[at];
-    let b = attributes[at + 1u];
-    let c = attributes[at + 2u];
+    let at = control.params.tangents + index * 3u;
+    let a = tables[at];
+    let b = tables[at + 1u];
+    let c = tables[at + 2u];
     return Tangents(bitcast<vec3<f32>>(a.xyz), bitcast<f32>(a.w), bitcast<vec3<f32>>(b.xyz), b.w, bitcast<vec3<f32>>(c.xyz), c.w);
 }
 
 // Two entries share three vec4s.
 fn load_uvs(index: u32) -> Uvs {
-    let at = params.uvs + (index >> 1u) * 3u;
-    let b = bitcast<vec4<f32>>(attributes[at + 1u]);
+    let at = control.params.uvs + (index >> 1u) * 3u;
+    let b = bitcast<vec4<f32>>(tables[at + 1u]);
     if (index & 1u) == 0u {
-        let a = bitcast<vec4<f32>>(attributes[at]);
+        let a = bitcast<vec4<f32>>(tables[at]);
         return Uvs(a.xy, a.zw, b.xy);
     }
-    let c = bitcast<vec4<f32>>(attributes[at + 2u]);
+    let c = bitcast<vec4<f32>>(tables[at + 2u]);
     return Uvs(b.zw, c.xy, c.zw);
 }
 
 fn load_colors(index: u32) -> Colors {
-    let at = params.colors + index * 3u;
-    return Colors(bitcast<vec4<f32>>(attributes[at]), bitcast<vec4<f32>>(attributes[at + 1u]), bitcast<vec4<f32>>(attributes[at + 2u]));
+    let at = control.params.colors + index * 3u;
+    return Colors(bitcast<vec4<f32>>(tables[at]), bitcast<vec4<f32>>(tables[at + 1u]), bitcast<vec4<f32>>(tables[at + 2u]));
 }

@@ -198,7 +198,7 @@ const AT_POINT: u32 = 64u;
 // bdpt/strategy.rs
 const MAX_VERTICES: u32 = 65u;
 
-// gpu/params.rs
+// gpu/control.params.rs
 struct Params {
     camera_position: vec3<f32>,
     lens_radius: f32,
@@ -273,6 +273,11 @@ struct Batch {
     tile_rows: u32,
     tile_pixels: u32,
     _pad0: u32,
+}
+
+struct Control {
+    batch: Batch,
+    params: Params,
 }
 
 struct SplatRecord {

@@ -20,9 +20,9 @@ fn light_hits_lens(s: u32, lens: Vertex, opacity_last: f32) -> Contribution {
     if !raster.some || !inside_film(raster.at) {
         return no_contribution();
     }
-    let w_e = w_e_1_on_film(lens.w_prev) * params.pdf_lens_area;
+    let w_e = w_e_1_on_film(lens.w_prev) * control.params.pdf_lens_area;
     join_at_lens(s - 1u, lens, opacity_last);
-    return Contribution(true, vec2<u32>(raster.at), lens.alpha * (w_e * params.per_pass), mis_weight(s));
+    return Contribution(true, vec2<u32>(raster.at), lens.alpha * (w_e * control.params.per_pass), mis_weight(s));
 }
 
 // What an end of the connection scatters (or emits, or gathers) along the edge, and the densities that depend on it, survival
@@ -33,7 +33,7 @@ fn connection_end(v: Vertex, is_first: bool, w_out: vec3<f32>, mode: u32) -> Eva
     }
     if mode == IMPORTANCE {
         let light = load_light(v.light);
-        return Evaluated(vec3<f32>(l_e_1(light, v.n_g, w_out)), light_pdf_direction_psa(light, v.n_g, w_out, params.pdf_disk_area), 0.0);
+        return Evaluated(vec3<f32>(l_e_1(light, v.n_g, w_out)), light_pdf_direction_psa(light, v.n_g, w_out, control.params.pdf_disk_area), 0.0);
     }
     return Evaluated(vec3<f32>(w_e_1_on_film(w_out)), pdf_direction_psa_on_film(w_out), 0.0);
 }
@@ -55,10 +55,10 @@ fn evaluate(id: SampleId, s: u32, t: u32, a: Vertex, b: Vertex, opacity_a: f32, 
     var unweighted = vec3<f32>(0.0);
     if s == 0u {
         joined = eye_hits_light(id, b);
-        unweighted = joined.connection_term * b.alpha * params.per_pass;
+        unweighted = joined.connection_term * b.alpha * control.params.per_pass;
     } else {
         joined = connect(id, s, t, a, b);
-        unweighted = a.alpha * joined.connection_term * b.alpha * params.per_pass;
+        unweighted = a.alpha * joined.connection_term * b.alpha * control.params.per_pass;
     }
     if !joined.some {
         return no_contribution();

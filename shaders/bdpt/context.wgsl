@@ -1,7 +1,7 @@
 // What a vertex needs of settings and shape: twin of src/bdpt/context.rs.
 
 fn survival(v: Vertex) -> f32 {
-    if params.roulette == 0u {
+    if control.params.roulette == 0u {
         return 1.0;
     }
     let material = load_material(v.material);

@@ -16,7 +16,7 @@ fn crossing(from_vertex: Vertex, walked: Walked, taken: Step) -> Arrived {
     if !arrived.some {
         return none;
     }
-    let room = params.clearance / abs(dot3(arrived.vertex.w_prev, arrived.vertex.n_g));
+    let room = control.params.clearance / abs(dot3(arrived.vertex.w_prev, arrived.vertex.n_g));
     let along_target = dot3(to.position - from_vertex.position, step.direction);
     let along_lens = dot3(lens_point.point - from_vertex.position, step.direction);
     if !walked.pushed || along_target > along_lens - room {
@@ -33,7 +33,7 @@ fn arrive_at_lens(from_vertex: Vertex, step: Step, point: vec3<f32>) -> Arrived 
     lens.alpha = step.alpha;
     lens.w_prev = -edge.w;
     lens.pdf_fwd_area = pdf;
-    lens.pdf_rev_area = params.pdf_lens_area;
+    lens.pdf_rev_area = control.params.pdf_lens_area;
     lens.geometry_prev = geometry;
     return Arrived(pdf > 0.0 && is_finite(pdf), lens);
 }

@@ -4,7 +4,7 @@
 // environment. There must be a light.
 fn sample_light_vertex(id: SampleId, block: u32, place: u32) -> Vertex {
     let u = numbers(id, block);
-    let index = choose(params.light_choice, params.light_cells, u.xy);
+    let index = choose(control.params.light_choice, control.params.light_cells, u.xy);
     let light = load_light(index);
     if light.kind == AREA {
         return emit_from_surface(vertex_on(surface_point(light.triangle, sample_triangle(u.zw)), ON_LIGHT), light);
@@ -55,9 +55,9 @@ fn light_vertex(index: u32, light: Light) -> Vertex {
 }
 
 fn lens_vertex(point: vec3<f32>) -> Vertex {
-    var v = vertex_on(free_point(point, params.camera_axis), select(ON_LENS | DISCRETE, ON_LENS, has_lens()));
+    var v = vertex_on(free_point(point, control.params.camera_axis), select(ON_LENS | DISCRETE, ON_LENS, has_lens()));
     v.alpha = vec3<f32>(1.0);
-    v.pdf_fwd_area = params.pdf_lens_area;
+    v.pdf_fwd_area = control.params.pdf_lens_area;
     return v;
 }
 

@@ -126,17 +126,17 @@ fn plain_sum(s: u32, squared: bool) -> f32 {
 
 // w_s of the strategy that made the path. Two rounds at most over the ratios, by the same code.
 fn mis_weight(s: u32) -> f32 {
-    let kind = params.heuristic;
-    let plain = kind <= HEURISTIC_BALANCE && (params.beta == 2.0 || params.beta == 1.0);
+    let kind = control.params.heuristic;
+    let plain = kind <= HEURISTIC_BALANCE && (control.params.beta == 2.0 || control.params.beta == 1.0);
     if plain {
         // Most paths are harmless; the others, and other exponents, take the careful way.
-        let sum = plain_sum(s, params.beta == 2.0);
+        let sum = plain_sum(s, control.params.beta == 2.0);
         if sum >= 0.0 {
             return 1.0 / (1.0 + sum);
         }
     }
     var what = SUM_POWERS;
-    var parameter = params.beta;
+    var parameter = control.params.beta;
     if kind == HEURISTIC_UNIFORM {
         what = COUNT_ALL;
     } else if kind == HEURISTIC_MAX || kind == HEURISTIC_CUTOFF {
@@ -149,7 +149,7 @@ fn mis_weight(s: u32) -> f32 {
             return 1.0 / result;
         }
         what = select(SUM_ABOVE, COUNT_TIES, kind == HEURISTIC_MAX);
-        parameter = result * select(params.cutoff, 1.0 - TIE, kind == HEURISTIC_MAX);
+        parameter = result * select(control.params.cutoff, 1.0 - TIE, kind == HEURISTIC_MAX);
         if 1.0 < parameter {
             return 0.0;
         }

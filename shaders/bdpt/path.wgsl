@@ -65,7 +65,7 @@ fn join_at_lens(k: u32, lens: Vertex, opacity_last: f32) {
         take_light_vertex(i, true);
     }
     p_light[k] = lens.pdf_fwd_area;
-    p_eye[k] = params.pdf_lens_area;
+    p_eye[k] = control.params.pdf_lens_area;
     p_eye[k - 1u] = pdf_direction_psa_on_film(lens.w_prev) * lens.geometry_prev * opacity_last;
     path_activate();
 }
@@ -74,7 +74,7 @@ fn join_at_lens(k: u32, lens: Vertex, opacity_last: f32) {
 fn join_at_light(x0: Vertex, opacity_x1: f32) {
     let light = load_light(x0.light);
     p_light[0] = pdf_origin(light, x0.w_prev);
-    let leaves_psa = light_pdf_direction_psa(light, x0.n_g, x0.w_prev, params.pdf_disk_area);
+    let leaves_psa = light_pdf_direction_psa(light, x0.n_g, x0.w_prev, control.params.pdf_disk_area);
     p_light[1] = leaves_psa * x0.geometry_prev * opacity_x1;
 }
 
@@ -125,7 +125,7 @@ fn strategy_row(k: u32, n: u32) -> u32 {
 }
 
 fn strategy_word(i: u32) -> u32 {
-    return select(0u, params.strategies[min(i >> 2u, 17u)][i & 3u], i < 72u);
+    return select(0u, control.params.strategies[min(i >> 2u, 17u)][i & 3u], i < 72u);
 }
 
 fn path_activate() {

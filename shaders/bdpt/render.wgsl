@@ -12,7 +12,7 @@ struct Slot {
 }
 
 fn load_slot(s: u32, t: u32) -> Slot {
-    let word = tables[params.slots + strategy_index(s, t)];
+    let word = tables[control.params.slots + strategy_index(s, t)];
     return Slot(word.x != 0u, word.y, word.z);
 }
 
@@ -21,26 +21,26 @@ fn strategy_index(s: u32, t: u32) -> u32 {
     return (k - 1u) * (k + 4u) / 2u + s;
 }
 
-// The sample of a pair of this batch.
+// The sample of a pair of this control.batch.
 fn sample_of(pair: u32) -> SampleId {
-    let row = pair / params.size.x;
-    return SampleId(pair % params.size.x, batch.first_row + row * batch.row_step, batch.pass_number, params.seed);
+    let row = pair / control.params.size.x;
+    return SampleId(pair % control.params.size.x, control.batch.first_row + row * control.batch.row_step, control.batch.pass_number, control.params.seed);
 }
 
 fn in_crop(pixel: vec2<u32>) -> bool {
-    let origin = vec2<u32>(params.crop_x, params.crop_y);
-    return all(pixel >= origin) && all(pixel - origin < vec2<u32>(params.crop_width, params.crop_height));
+    let origin = vec2<u32>(control.params.crop_x, control.params.crop_y);
+    return all(pixel >= origin) && all(pixel - origin < vec2<u32>(control.params.crop_width, control.params.crop_height));
 }
 
 // y_i of a pair: vertex by vertex, so that neighbours in a workgroup are neighbours in memory.
 fn light_place(i: u32, pair: u32) -> u32 {
-    return i * batch.pairs + pair;
+    return i * control.batch.pairs + pair;
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn trace_light(@builtin(global_invocation_id) global: vec3<u32>, @builtin(local_invocation_index) local: u32) {
     let pair = global.x;
-    if pair < batch.pairs {
+    if pair < control.batch.pairs {
         light_side(sample_of(pair), pair);
     }
     count_up(local);
@@ -48,19 +48,19 @@ fn trace_light(@builtin(global_invocation_id) global: vec3<u32>, @builtin(local_
 
 fn light_side(id: SampleId, pair: u32) {
     var count = 0u;
-    if params.lights_count > 0u {
+    if control.params.lights_count > 0u {
         count = light_subpath(id, pair);
     }
-    if count < params.light_vertices {
+    if count < control.params.light_vertices {
         light_vertices[light_place(count, pair)].flags = 0u;
     }
     let z0 = numbers(id, BLOCK_EYE_START).zw;
-    for (var s = 1u; s <= min(count, params.max_edges); s++) {
+    for (var s = 1u; s <= min(count, control.params.max_edges); s++) {
         if !load_slot(s, 1u).runs {
             continue;
         }
         var u = z0;
-        if params.fresh_ends != 0u && has_lens() {
+        if control.params.fresh_ends != 0u && has_lens() {
             u = numbers(id, BLOCK_FRESH_LENS + s).xy;
         }
         let a = light_vertices[light_place(s - 1u, pair)];
@@ -81,9 +81,9 @@ fn light_subpath(id: SampleId, pair: u32) -> u32 {
         return 1u;
     }
     var count = 1u;
-    while count < params.light_vertices {
+    while count < control.params.light_vertices {
         let taken = step;
-        let walked = walk_step(&step, IMPORTANCE, id, last, count - 1u, count + 1u == params.light_vertices);
+        let walked = walk_step(&step, IMPORTANCE, id, last, count - 1u, count + 1u == control.params.light_vertices);
         if walked.pdf_rev_area > 0.0 {
             light_rev[count - 1u] = walked.pdf_rev_area;
             light_vertices[light_place(count - 1u, pair)].pdf_rev_area = walked.pdf_rev_area;
@@ -130,7 +130,7 @@ fn splat(id: SampleId, s: u32, t: u32, contribution: Contribution) {
     let index = atomicAdd(&output.records_count, 1u);
     if index < arrayLength(&output.records) {
         output.records[index] = SplatRecord(
-            contribution.contribution_unweighted, contribution.mis_weight, contribution.pixel.y * params.size.x + contribution.pixel.x,
+            contribution.contribution_unweighted, contribution.mis_weight, contribution.pixel.y * control.params.size.x + contribution.pixel.x,
             id.x | (id.y << 16u), strategy_index(s, t), s,
         );
     }
@@ -139,7 +139,7 @@ fn splat(id: SampleId, s: u32, t: u32, contribution: Contribution) {
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn trace_eye(@builtin(global_invocation_id) global: vec3<u32>, @builtin(local_invocation_index) local: u32) {
     let pair = global.x;
-    if pair < batch.pairs {
+    if pair < control.batch.pairs {
         let id = sample_of(pair);
         if in_crop(vec2<u32>(id.x, id.y)) {
             eye_side(id, pair);
@@ -150,7 +150,7 @@ fn trace_eye(@builtin(global_invocation_id) global: vec3<u32>, @builtin(local_in
 
 fn eye_side(id: SampleId, pair: u32) {
     let light_count = recall_light_vertices(pair);
-    let image_place = (id.y - batch.tile_row) * params.size.x + id.x;
+    let image_place = (id.y - control.batch.tile_row) * control.params.size.x + id.x;
     let u = numbers(id, BLOCK_EYE_START);
     let raster = vec2<f32>(inside_cell(id.x, u.x), inside_cell(id.y, u.y));
     var last = lens_vertex(sample_lens(u.zw));
@@ -160,8 +160,8 @@ fn eye_side(id: SampleId, pair: u32) {
     eye_flags[0] = last.flags;
     var image = vec3<f32>(0.0);
     var count = 1u;
-    while count < params.eye_vertices {
-        let walked = walk_step(&step, RADIANCE, id, last, count - 1u, count + 1u == params.eye_vertices);
+    while count < control.params.eye_vertices {
+        let walked = walk_step(&step, RADIANCE, id, last, count - 1u, count + 1u == control.params.eye_vertices);
         if !walked.pushed {
             break;
         }
@@ -182,7 +182,7 @@ fn eye_side(id: SampleId, pair: u32) {
 // Fetches what paths need of the light vertices away from the connection; how many there are.
 fn recall_light_vertices(pair: u32) -> u32 {
     var count = 0u;
-    while count < params.light_vertices {
+    while count < control.params.light_vertices {
         let place = light_place(count, pair);
         let flags = light_vertices[place].flags;
         if flags == 0u {
@@ -199,12 +199,12 @@ fn recall_light_vertices(pair: u32) -> u32 {
 // Every strategy that ends at z_{t−1} = b; what they add to the image.
 fn eye_vertex(id: SampleId, pair: u32, place: u32, t: u32, b: Vertex, opacity_b: f32, light_count: u32) -> vec3<f32> {
     var image = vec3<f32>(0.0);
-    var most = min(max(light_count, 1u), params.max_edges + 1u - t);
-    if has(b, AT_INFINITY) || params.lights_count == 0u {
+    var most = min(max(light_count, 1u), control.params.max_edges + 1u - t);
+    if has(b, AT_INFINITY) || control.params.lights_count == 0u {
         most = 0u;
     }
     for (var s = 0u; s <= most; s++) {
-        let fresh = s == 1u && params.fresh_ends != 0u;
+        let fresh = s == 1u && control.params.fresh_ends != 0u;
         if !load_slot(s, t).runs || (s > light_count && !fresh) {
             continue;
         }
@@ -244,10 +244,10 @@ fn add_to_film(layer: u32, place: u32, value: vec3<f32>) {
     if layer == NONE {
         return;
     }
-    let at = layer * 3u * batch.tile_pixels + place;
+    let at = layer * 3u * control.batch.tile_pixels + place;
     film[at] += value.x;
-    film[at + batch.tile_pixels] += value.y;
-    film[at + 2u * batch.tile_pixels] += value.z;
+    film[at + control.batch.tile_pixels] += value.y;
+    film[at + 2u * control.batch.tile_pixels] += value.z;
 }
 
 // Sums of a workgroup's counts.
@@ -257,14 +257,14 @@ var<workgroup> group_counts: array<atomic<u32>, 5>;
 fn count_up(local: u32) {
     // A driver that stops loops without a word (lavapipe does after 65 535 rounds) stops this one too.
     var rounds = 0u;
-    while rounds < params.canary {
+    while rounds < control.params.canary {
         rounds++;
     }
     atomicAdd(&group_counts[0], rays_closest);
     atomicAdd(&group_counts[1], rays_shadow);
     atomicAdd(&group_counts[2], non_finite);
     atomicAdd(&group_counts[3], stack_overflows);
-    atomicAdd(&group_counts[4], select(1u, 0u, rounds == params.canary));
+    atomicAdd(&group_counts[4], select(1u, 0u, rounds == control.params.canary));
     workgroupBarrier();
     if local == 0u {
         // Rays are counted in two words each.

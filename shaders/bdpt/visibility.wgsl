@@ -15,5 +15,5 @@ fn visibility(a: Vertex, b: Vertex, w: vec3<f32>) -> f32 {
 
 // Where an edge along w ends: just off the surface, or just before the lens.
 fn edge_end(b: Vertex, w: vec3<f32>) -> vec3<f32> {
-    return offset_ray_origin(b.position, select(b.error, params.clearance, has(b, ON_LENS)), b.n_g, -w);
+    return offset_ray_origin(b.position, select(b.error, control.params.clearance, has(b, ON_LENS)), b.n_g, -w);
 }

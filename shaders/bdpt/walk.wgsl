@@ -28,7 +28,7 @@ fn light_start(id: SampleId, y0: ptr<function, Vertex>) -> Step {
     } else {
         direction = light_sample_direction(light, (*y0).n_g, u.xy, u.z);
     }
-    let pdf_fwd_psa = light_pdf_direction_psa(light, (*y0).n_g, direction, params.pdf_disk_area);
+    let pdf_fwd_psa = light_pdf_direction_psa(light, (*y0).n_g, direction, control.params.pdf_disk_area);
     var alpha = vec3<f32>(0.0);
     if pdf_fwd_psa > 0.0 {
         alpha = (*y0).alpha * (l_e_1(light, (*y0).n_g, direction) / pdf_fwd_psa);
@@ -44,7 +44,7 @@ fn inside_cell(cell: u32, u: f32) -> f32 {
 // The first step of the eye subpath from z₀ through a raster position.
 fn eye_start(z0: Vertex, raster: vec2<f32>) -> Step {
     let direction = camera_direction(raster, z0.position);
-    return Step(direction, pdf_direction_psa_on_film(direction), z0.alpha * params.pixels);
+    return Step(direction, pdf_direction_psa_on_film(direction), z0.alpha * control.params.pixels);
 }
 
 // One step from vertex number `last`. `at_end`: the vertex it leads to is the last that K allows.
@@ -59,7 +59,7 @@ fn walk_step(step: ptr<function, Step>, mode: u32, id: SampleId, from_vertex: Ve
     }
     let met = closest_hit(Ray(origin, (*step).direction), draws);
     let escaped = met.hit.triangle == NONE;
-    if escaped && (mode == IMPORTANCE || params.environment_light == NONE) {
+    if escaped && (mode == IMPORTANCE || control.params.environment_light == NONE) {
         walked.end = END_ESCAPED;
         return walked;
     }
@@ -120,7 +120,7 @@ fn arrive(from_vertex: Vertex, met: Closest, step: Step, mode: u32) -> Arrived {
     var w = step.direction;
     var geometry = 0.0;
     if escaped {
-        v = light_vertex(params.environment_light, load_light(params.environment_light));
+        v = light_vertex(control.params.environment_light, load_light(control.params.environment_light));
         v.n_g = -w;
         v.n_s = -w;
         geometry = abs(dot3(from_vertex.n_g, w));
@@ -151,7 +151,7 @@ fn arrive(from_vertex: Vertex, met: Closest, step: Step, mode: u32) -> Arrived {
 
 // V of an edge that a walk took, along w from its light end to its eye end.
 fn seen_through(a: Vertex, b: Vertex, w: vec3<f32>) -> f32 {
-    if HAS_ALPHA && params.alpha_blend != 0u {
+    if HAS_ALPHA && control.params.alpha_blend != 0u {
         return visibility(a, b, w);
     }
     return 1.0;

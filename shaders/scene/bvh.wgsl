@@ -202,7 +202,7 @@ struct Closest {
 fn closest_hit(ray: Ray, draws: vec4<u32>) -> Closest {
     let prepared = prepared_ray(ray.origin, ray.direction);
     var best = Closest(Hit(NONE, MAX_FLOAT, 0.0, 0.0), false);
-    if params.triangles_count == 0u {
+    if control.params.triangles_count == 0u {
         return best;
     }
     var waiting: array<u32, STACK_SIZE>;
@@ -268,7 +268,7 @@ fn closest_hit(ray: Ray, draws: vec4<u32>) -> Closest {
 
 // V of what lies along a ray for 0 < distance < t_max: Π (1 − a), 0 as soon as anything lets nothing through.
 fn transmittance(prepared: PreparedRay, t_max: f32) -> f32 {
-    if params.triangles_count == 0u {
+    if control.params.triangles_count == 0u {
         return 1.0;
     }
     var v = 1.0;

@@ -1,19 +1,19 @@
 // Light from infinity: twin of src/scene/environment.rs.
 
 fn environment_place(w: vec3<f32>) -> vec2<f32> {
-    let u = turn_of(w.x, -w.z) + params.environment_rotation + 0.5;
+    let u = turn_of(w.x, -w.z) + control.params.environment_rotation + 0.5;
     let v = turn_of(sqrt(w.x * w.x + w.z * w.z), w.y) * 2.0;
-    return vec2<f32>(fract(u) * f32(params.environment_width), v * f32(params.environment_height));
+    return vec2<f32>(fract(u) * f32(control.params.environment_width), v * f32(control.params.environment_height));
 }
 
 fn environment_at(x: u32, y: u32) -> vec3<f32> {
-    return load_texel(y * params.environment_width + x).radiance;
+    return load_texel(y * control.params.environment_width + x).radiance;
 }
 
 // L from the unit direction w (towards the environment).
 fn environment_radiance(w: vec3<f32>) -> vec3<f32> {
-    let width = i32(params.environment_width);
-    let height = i32(params.environment_height);
+    let width = i32(control.params.environment_width);
+    let height = i32(control.params.environment_height);
     if width * height == 1 {
         return environment_at(0u, 0u);
     }
@@ -31,23 +31,23 @@ fn environment_radiance(w: vec3<f32>) -> vec3<f32> {
 // p_ω of the unit direction w (towards the environment), sr⁻¹.
 fn environment_pdf_sa(w: vec3<f32>) -> f32 {
     var index = 0u;
-    if params.environment_width * params.environment_height > 1u {
+    if control.params.environment_width * control.params.environment_height > 1u {
         let place = environment_place(w);
-        let x = min(u32(max(place.x, 0.0)), params.environment_width - 1u);
-        let y = min(u32(max(place.y, 0.0)), params.environment_height - 1u);
-        index = y * params.environment_width + x;
+        let x = min(u32(max(place.x, 0.0)), control.params.environment_width - 1u);
+        let y = min(u32(max(place.y, 0.0)), control.params.environment_height - 1u);
+        index = y * control.params.environment_width + x;
     }
     return load_texel(index).pdf_sa;
 }
 
 // A direction towards the environment with that density.
 fn environment_sample(u_texel: vec2<f32>, u_place: vec2<f32>) -> vec3<f32> {
-    let index = choose(params.environment_choice, params.environment_cells, u_texel);
-    let x = index % params.environment_width;
-    let y = index / params.environment_width;
-    let turn = (f32(x) + u_place.x) / f32(params.environment_width) - 0.5 - params.environment_rotation;
+    let index = choose(control.params.environment_choice, control.params.environment_cells, u_texel);
+    let x = index % control.params.environment_width;
+    let y = index / control.params.environment_width;
+    let turn = (f32(x) + u_place.x) / f32(control.params.environment_width) - 0.5 - control.params.environment_rotation;
     let sc = sin_cos_turn(turn - floor(turn));
-    let row = environment_row(y, params.environment_height);
+    let row = environment_row(y, control.params.environment_height);
     let versine = row.x + (row.y - row.x) * u_place.y;
     let sin_theta = sqrt(max(versine * (2.0 - versine), 0.0));
     return vec3<f32>(sc.x * sin_theta, (1.0 - versine) * row.z, -sc.y * sin_theta);

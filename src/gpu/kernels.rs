@@ -51,22 +51,19 @@ pub struct Layouts {
 impl Layouts {
     /// The layouts of the list in `gpu`.
     pub fn new(gpu: &Gpu) -> Self {
-        let entry = |binding: u32, ty: wgpu::BufferBindingType| wgpu::BindGroupLayoutEntry {
+        let entry = |binding: u32, read_only: bool, has_dynamic_offset: bool| wgpu::BindGroupLayoutEntry {
             binding,
             visibility: wgpu::ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset: binding == 9, min_binding_size: None },
+            ty: wgpu::BindingType::Buffer { ty: wgpu::BufferBindingType::Storage { read_only }, has_dynamic_offset, min_binding_size: None },
             count: None,
         };
-        let uniform = |binding| entry(binding, wgpu::BufferBindingType::Uniform);
-        let read = |binding| entry(binding, wgpu::BufferBindingType::Storage { read_only: true });
-        let write = |binding| entry(binding, wgpu::BufferBindingType::Storage { read_only: false });
+        let (control, read, write) = (entry(0, true, true), |binding| entry(binding, true, false), |binding| entry(binding, false, false));
         let layout = |label, entries: &[wgpu::BindGroupLayoutEntry]| {
             gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries })
         };
-        let all = [uniform(0), read(1), read(2), read(3), read(4), read(5), write(6), write(7), write(8), uniform(9)];
         Self {
-            trace: layout("trace", &all),
-            resolve: layout("resolve", &[uniform(0), read(3), write(8), uniform(9)]),
+            trace: layout("trace", &[control, read(1), read(2), read(3), read(4), write(5), write(6), write(7)]),
+            resolve: layout("resolve", &[control, read(3), write(7)]),
             splats: layout("splats", &[write(0)]),
         }
     }

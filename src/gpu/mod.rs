@@ -12,17 +12,18 @@
 //!
 //! | binding | what | used by |
 //! |---|---|---|
-//! | 0.0 | [`Params`], uniform | all |
+//! | 0.0 | [`Control`]: parameters and batch, at a dynamic offset | all |
 //! | 0.1 | nodes of the hierarchy | trace_light, trace_eye |
 //! | 0.2 | triangles | trace_light, trace_eye |
-//! | 0.3 | tables: materials, lights, texture uses, alias tables, environment, slots of the plan | all |
-//! | 0.4 | attributes: normals, tangents, texture coordinates, colours | trace_light, trace_eye |
-//! | 0.5 | texels of the textures | trace_light, trace_eye |
-//! | 0.6 | light vertices of the batch | written by trace_light, read by trace_eye |
-//! | 0.7 | pixel layers of the batch's tile | trace_eye |
-//! | 0.8 | counts and splat records of the batch | all |
-//! | 0.9 | [`Batch`], uniform at a dynamic offset | all |
+//! | 0.3 | tables: materials, lights, texture uses, alias tables, environment, the plan's slots, normals, tangents, texture coordinates, colours | all |
+//! | 0.4 | texels of the textures | trace_light, trace_eye |
+//! | 0.5 | light vertices of the batch | written by trace_light, read by trace_eye |
+//! | 0.6 | pixel layers of the batch's tile | trace_eye |
+//! | 0.7 | counts and splat records of the batch | all |
 //! | 1.0 | splat layers of a tile | resolve |
+//!
+//! The parameters are in a storage buffer, not in a uniform one: lavapipe compiles a kernel anew for every value of a uniform
+//! that decides a branch.
 //!
 //! Sums have two levels: f32 (and 64-bit integers for splats) on the device for at most [`MOST_PASSES`] passes, then f64 in the
 //! film.
@@ -39,7 +40,7 @@ mod tiles;
 pub use device::{Gpu, check};
 pub use error::GpuError;
 pub use kernels::{Kernels, Layouts, Specialisation};
-pub use params::{Batch, Params, SplatRecord, Task, heuristic_code};
+pub use params::{Batch, Control, Params, SplatRecord, Task, heuristic_code};
 pub use renderer::{MOST_PASSES, Renderer};
 pub use scene::{Places, SceneBuffers};
 pub use tiles::{FILM_BUDGET, Need, Tiles};

@@ -1,6 +1,6 @@
 //! What a kernel is told beside the scene: the view, the settings, and where in its buffers things are.
 //!
-//! Twin: `Params`, `Batch` and `SplatRecord` in shaders/types.wgsl.
+//! Twin: `Control`, `Params`, `Batch` and `SplatRecord` in shaders/types.wgsl.
 
 use super::scene::Places;
 use crate::bdpt::render::Plan;
@@ -84,7 +84,7 @@ shared_struct! {
         pub lights_count: u32,
         /// Number of triangles.
         pub triangles_count: u32,
-        /// Where the materials begin in `tables`.
+        /// Where the materials begin in the tables.
         pub materials: u32,
         /// Lights.
         pub lights: u32,
@@ -112,7 +112,7 @@ shared_struct! {
         pub environment_height: u32,
         /// Turns.
         pub environment_rotation: f32,
-        /// Where the list of attributes begins in `attributes`.
+        /// What triangles have beyond their corners: the list.
         pub attributes: u32,
         /// Normals.
         pub normals: u32,
@@ -150,6 +150,16 @@ shared_struct! {
         pub tile_pixels: u32,
         /// Padding.
         pub _pad0: u32,
+    }
+}
+
+shared_struct! {
+    /// All that a dispatch is told.
+    pub struct Control {
+        /// Which part of which pass.
+        pub batch: Batch,
+        /// Of the whole rendering.
+        pub params: Params,
     }
 }
 

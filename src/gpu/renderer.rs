@@ -1,7 +1,7 @@
 //! A rendering on the device: submits batches, a slice of time each, and folds what they sum up into a film.
 
 use super::kernels::{Kernels, Layouts, Specialisation};
-use super::params::{Batch, Params, SplatRecord, Task};
+use super::params::{Batch, Control, Params, SplatRecord, Task};
 use super::scene::SceneBuffers;
 use super::shader::Source;
 use super::tiles::{FILM_BUDGET, Need, Tiles, rows_of};
@@ -18,8 +18,8 @@ use web_time::Instant;
 pub const MOST_PASSES: u32 = 1024;
 /// Most batches in a submission.
 const MOST_BATCHES: usize = 256;
-/// Bytes from one batch's uniform to the next.
-const BATCH_STRIDE: u64 = 256;
+/// Bytes from one batch's control to the next: a multiple of every adapter's alignment.
+const STRIDE: u64 = (size_of::<Control>() as u64).next_multiple_of(256);
 /// Pairs of the first batches, whose speed nobody knows yet.
 const FIRST_PAIRS: u32 = 8192;
 /// Invocations of a workgroup.
@@ -62,7 +62,8 @@ pub struct Renderer {
     /// Splat layers of each tile.
     splat_layers: Vec<wgpu::Buffer>,
     output: wgpu::Buffer,
-    batch_buffer: wgpu::Buffer,
+    params: Params,
+    control: wgpu::Buffer,
     staging: wgpu::Buffer,
     batches: Vec<(usize, Batch)>,
     runs: Runs,
@@ -123,7 +124,6 @@ impl Renderer {
         let tile_bytes = |per_pixel: u64, rows: u32| u64::from(tiles.pixels(rows)) * per_pixel;
         let staging_bytes = HEADER + tile_bytes(tiles.pixel_bytes, tiles.rows).max(tile_bytes(tiles.splat_bytes, tiles.rows));
         let storage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
-        let uniform = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let read = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
         let buffer = |label, size, usage| {
             gpu.device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
@@ -136,16 +136,14 @@ impl Renderer {
                     [
                         buffer("light vertices", vertex_bytes, storage),
                         buffer("output", record_bytes, storage),
-                        buffer("params", size_of::<Params>() as u64, uniform),
-                        buffer("batches", BATCH_STRIDE * MOST_BATCHES as u64, uniform),
+                        buffer("control", STRIDE * MOST_BATCHES as u64, storage),
                         buffer("staging", staging_bytes, read),
                     ],
                 )
             })
             .await?;
-        let ([pixel_layers, splat_layers], [vertices, output, params_buffer, batch_buffer, staging]) = made;
-        gpu.queue.write_buffer(&params_buffer, 0, bytemuck::bytes_of(&params));
-        let entries = Entries { scene: &scene, vertices: &vertices, output: &output, params: &params_buffer, batch: &batch_buffer };
+        let ([pixel_layers, splat_layers], [vertices, output, control, staging]) = made;
+        let entries = Entries { scene: &scene, vertices: &vertices, output: &output, control: &control };
         let bound = gpu.guarded("its bindings", || entries.bind(gpu, &layouts, &pixel_layers, &splat_layers)).await?;
 
         let film: u64 = pixel_layers.iter().chain(&splat_layers).map(wgpu::Buffer::size).sum();
@@ -166,7 +164,8 @@ impl Renderer {
             pixel_layers,
             splat_layers,
             output,
-            batch_buffer,
+            params,
+            control,
             staging,
             batches,
             runs,
@@ -253,16 +252,16 @@ impl Renderer {
         let typical = f64::from(self.batches[0].1.pairs);
         let wanted = (self.pairs_per_second * self.slice.as_secs_f64() / typical).floor().clamp(1.0, MOST_BATCHES as f64) as usize;
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let (mut pairs, mut batches, mut uniforms) = (0, 0, Vec::new());
+        let (mut pairs, mut batches, mut controls) = (0, 0, Vec::new());
         while batches < wanted && self.pass < limit {
             let (tile, batch) = self.batches[self.next];
             let batch = Batch { pass_number: self.pass, ..batch };
             // Splats go to every tile, each with its own numbers.
             let needed = 1 + if self.runs.splats && self.tiles.list().len() > 1 { self.tiles.list().len() } else { 0 };
-            if uniforms.len() + needed > MOST_BATCHES {
+            if controls.len() + needed > MOST_BATCHES {
                 break;
             }
-            self.encode(&mut encoder, tile, &batch, &mut uniforms);
+            self.encode(&mut encoder, tile, &batch, &mut controls);
             rows_of(&batch, self.tiles.size[0]).for_each(|row| self.rows[row as usize] += 1);
             pairs += u64::from(batch.pairs);
             batches += 1;
@@ -272,11 +271,12 @@ impl Renderer {
                 break;
             }
         }
-        let mut bytes = vec![0u8; uniforms.len() * BATCH_STRIDE as usize];
-        for (slot, batch) in bytes.chunks_mut(BATCH_STRIDE as usize).zip(&uniforms) {
-            slot[..size_of::<Batch>()].copy_from_slice(bytemuck::bytes_of(batch));
+        let mut bytes = vec![0u8; controls.len() * STRIDE as usize];
+        for (slot, batch) in bytes.chunks_mut(STRIDE as usize).zip(&controls) {
+            let control = Control { batch: *batch, params: self.params };
+            slot[..size_of::<Control>()].copy_from_slice(bytemuck::bytes_of(&control));
         }
-        self.gpu.queue.write_buffer(&self.batch_buffer, 0, &bytes);
+        self.gpu.queue.write_buffer(&self.control, 0, &bytes);
         let began = Instant::now();
         let index = self.gpu.queue.submit([encoder.finish()]);
         let done = Done::default();
@@ -289,13 +289,13 @@ impl Renderer {
     }
 
     /// One batch: light walks, eye walks and connections, splats.
-    fn encode(&self, encoder: &mut wgpu::CommandEncoder, tile: usize, batch: &Batch, uniforms: &mut Vec<Batch>) {
-        let offset = |uniforms: &[Batch]| (uniforms.len() as u64 * BATCH_STRIDE) as u32;
+    fn encode(&self, encoder: &mut wgpu::CommandEncoder, tile: usize, batch: &Batch, controls: &mut Vec<Batch>) {
+        let offset = |controls: &[Batch]| (controls.len() as u64 * STRIDE) as u32;
         encoder.clear_buffer(&self.output, 0, Some(4));
         let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         let groups = batch.pairs.div_ceil(WORKGROUP);
-        let mut own = offset(uniforms);
-        uniforms.push(*batch);
+        let mut own = offset(controls);
+        controls.push(*batch);
         compute.set_bind_group(0, &self.bound.trace[tile], &[own]);
         if self.runs.light {
             compute.set_pipeline(&self.kernels.light);
@@ -310,8 +310,8 @@ impl Renderer {
             compute.set_pipeline(&self.kernels.resolve);
             for (target, &(first, rows)) in tiles.iter().enumerate() {
                 if tiles.len() > 1 {
-                    own = offset(uniforms);
-                    uniforms.push(Batch { tile_row: first, tile_rows: rows, tile_pixels: self.tiles.pixels(rows), ..*batch });
+                    own = offset(controls);
+                    controls.push(Batch { tile_row: first, tile_rows: rows, tile_pixels: self.tiles.pixels(rows), ..*batch });
                 }
                 compute.set_bind_group(0, &self.bound.resolve, &[own]);
                 compute.set_bind_group(1, &self.bound.splats[target], &[]);
@@ -418,8 +418,7 @@ struct Entries<'a> {
     scene: &'a SceneBuffers,
     vertices: &'a wgpu::Buffer,
     output: &'a wgpu::Buffer,
-    params: &'a wgpu::Buffer,
-    batch: &'a wgpu::Buffer,
+    control: &'a wgpu::Buffer,
 }
 
 impl Entries<'_> {
@@ -429,17 +428,17 @@ impl Entries<'_> {
             let entries: Vec<_> = buffers
                 .iter()
                 .map(|(binding, buffer)| {
-                    let size = if *binding == 9 { std::num::NonZero::new(size_of::<Batch>() as u64) } else { None };
+                    let size = if *binding == 0 && buffer == self.control { std::num::NonZero::new(size_of::<Control>() as u64) } else { None };
                     let resource = wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size });
                     wgpu::BindGroupEntry { binding: *binding, resource }
                 })
                 .collect();
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
         };
-        let common = [entry(0, self.params), entry(8, self.output), entry(9, self.batch)];
+        let common = [entry(0, self.control), entry(7, self.output)];
         let scene = self.scene.buffers.iter().zip(1..).map(|(buffer, binding)| entry(binding, buffer));
-        let traced: Vec<_> = common.iter().cloned().chain(scene).chain([entry(6, self.vertices)]).collect();
-        let trace = |film: &wgpu::Buffer| group(&layouts.trace, &[traced.clone(), vec![entry(7, film)]].concat());
+        let traced: Vec<_> = common.iter().cloned().chain(scene).chain([entry(5, self.vertices)]).collect();
+        let trace = |film: &wgpu::Buffer| group(&layouts.trace, &[traced.clone(), vec![entry(6, film)]].concat());
         Bound {
             trace: pixel_layers.iter().map(trace).collect(),
             resolve: group(&layouts.resolve, &[&common[..], &[entry(3, &self.scene.buffers[2])]].concat()),

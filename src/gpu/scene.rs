@@ -1,7 +1,7 @@
 //! The scene on the device: the very bytes the CPU walks over, several arrays to a buffer.
 //!
-//! `tables` holds what is small or rare (materials, lights, textures, the environment, the plan's slots), `attributes` what
-//! triangles have beyond their corners; each array begins at a multiple of 16 bytes.
+//! The tables hold materials, lights, textures, the environment, the plan's slots, and what triangles have beyond their
+//! corners; each array begins at a multiple of 16 bytes.
 
 use super::{Gpu, GpuError};
 use crate::bdpt::render::Plan;
@@ -46,8 +46,8 @@ impl Sections {
 /// The scene's buffers, in the order of their bindings.
 #[derive(Debug)]
 pub struct SceneBuffers {
-    /// Nodes, triangles, tables, attributes, texels.
-    pub buffers: [wgpu::Buffer; 5],
+    /// Nodes, triangles, tables, texels.
+    pub buffers: [wgpu::Buffer; 4],
     /// Where things are.
     pub places: Places,
     /// Bytes of all of it.
@@ -60,7 +60,7 @@ impl SceneBuffers {
     /// # Errors
     /// If an array exceeds what the device binds at once, or its memory.
     pub async fn new(gpu: &Gpu, scene: &Scene, plan: &Plan, max_edges: u32) -> Result<Self, GpuError> {
-        let (mut tables, mut attributes) = (Sections::default(), Sections::default());
+        let mut tables = Sections::default();
         let environment = scene.lights.environment.as_ref();
         let places = Places {
             materials: tables.push(&scene.materials),
@@ -71,17 +71,16 @@ impl SceneBuffers {
             slots: tables.push(&slots(plan, max_edges)),
             environment_texels: environment.map_or(0, |map| tables.push(&map.texels)),
             environment_choice: environment.map_or(0, |map| tables.push(&map.choice.cells)),
-            attributes: attributes.push(&scene.attributes.list),
-            normals: attributes.push(&scene.attributes.normals),
-            tangents: attributes.push(&scene.attributes.tangents),
-            uvs: attributes.push(&scene.attributes.uvs),
-            colors: attributes.push(&scene.attributes.colors),
+            attributes: tables.push(&scene.attributes.list),
+            normals: tables.push(&scene.attributes.normals),
+            tangents: tables.push(&scene.attributes.tangents),
+            uvs: tables.push(&scene.attributes.uvs),
+            colors: tables.push(&scene.attributes.colors),
         };
-        let parts: [(&'static str, &[u8], u64); 5] = [
+        let parts: [(&'static str, &[u8], u64); 4] = [
             ("the hierarchy", bytemuck::cast_slice(&scene.bvh.nodes), 32),
             ("the triangles", bytemuck::cast_slice(&scene.triangles), 48),
-            ("materials, lights and environment", &tables.0, 16),
-            ("normals and texture coordinates", &attributes.0, 16),
+            ("materials, normals, texture coordinates and environment", &tables.0, 16),
             ("the textures", bytemuck::cast_slice(&scene.textures.texels), 4),
         ];
         let have = gpu.limits.max_storage_buffer_binding_size.min(gpu.limits.max_buffer_size);

@@ -6,7 +6,7 @@ use bdpt_explorer::bdpt::render::{Counts, Plan, render_rows, splat_quantum};
 use bdpt_explorer::engine::{Crop, Job};
 use bdpt_explorer::film::Film;
 use bdpt_explorer::gpu::shader::Source;
-use bdpt_explorer::gpu::{Gpu, GpuError, Renderer, Task};
+use bdpt_explorer::gpu::{Gpu, GpuError, Kernels, Layouts, Renderer, Specialisation, Task};
 use bdpt_explorer::scene::View;
 use pollster::block_on;
 use std::sync::OnceLock;
@@ -23,6 +23,17 @@ pub fn gpu(test: &str) -> Option<&'static Gpu> {
             None
         }
     }
+}
+
+/// Kernels for every scene, with the deepest stack: compiled once for all tests.
+pub fn general(gpu: &Gpu) -> (Layouts, Kernels) {
+    static KERNELS: OnceLock<(Layouts, Kernels)> = OnceLock::new();
+    let compile = || {
+        let layouts = Layouts::new(gpu);
+        let kernels = block_on(Kernels::compile(gpu, &layouts, &Source::kernels(u32::MAX), Specialisation::GENERAL)).unwrap();
+        (layouts, kernels)
+    };
+    KERNELS.get_or_init(compile).clone()
 }
 
 /// What a job means to either renderer.
@@ -50,13 +61,13 @@ impl Work {
         Film::new(self.job.size, self.plan.layers, self.quantum)
     }
 
-    pub fn renderer(&self, gpu: &Gpu) -> Result<Renderer, GpuError> {
-        let source = Source::kernels(self.job.scene.bvh.depth);
-        block_on(Renderer::new(gpu, &self.task(), &source, self.quantum, Duration::from_millis(50)))
+    /// A renderer with the kernels that fit every scene.
+    pub fn renderer(&self, gpu: &Gpu) -> Renderer {
+        block_on(Renderer::with_kernels(gpu, &self.task(), general(gpu), self.quantum, Duration::from_millis(50))).unwrap()
     }
 
     pub fn on_gpu(&self, gpu: &Gpu, passes: u32) -> (Film, Counts) {
-        let (mut film, mut renderer) = (self.film(), self.renderer(gpu).unwrap());
+        let (mut film, mut renderer) = (self.film(), self.renderer(gpu));
         while renderer.passes() < passes {
             block_on(renderer.step(Duration::from_secs(1), passes)).unwrap();
         }

@@ -4,7 +4,7 @@
 
 use crate::harness::Work;
 use bdpt_explorer::gpu::shader::Source;
-use bdpt_explorer::gpu::{Batch, Gpu, Layouts, Params, SceneBuffers};
+use bdpt_explorer::gpu::{Batch, Control, Gpu, Layouts, Params, SceneBuffers};
 use pollster::block_on;
 
 /// Helpers of a table's kernel; `inputs` and `outputs` are the numbers of a row.
@@ -13,12 +13,12 @@ fn in_f(row: u32, k: u32) -> f32 { return film[row * INPUTS + k]; }
 fn in_u(row: u32, k: u32) -> u32 { return bitcast<u32>(film[row * INPUTS + k]); }
 fn in_v(row: u32, k: u32) -> vec3<f32> { return vec3<f32>(in_f(row, k), in_f(row, k + 1u), in_f(row, k + 2u)); }
 fn in_2(row: u32, k: u32) -> vec2<f32> { return vec2<f32>(in_f(row, k), in_f(row, k + 1u)); }
-fn out_f(row: u32, k: u32, value: f32) { film[batch.pairs * INPUTS + row * OUTPUTS + k] = value; }
+fn out_f(row: u32, k: u32, value: f32) { film[control.batch.pairs * INPUTS + row * OUTPUTS + k] = value; }
 fn out_u(row: u32, k: u32, value: u32) { out_f(row, k, bitcast<f32>(value)); }
 fn out_v(row: u32, k: u32, value: vec3<f32>) { out_f(row, k, value.x); out_f(row, k + 1u, value.y); out_f(row, k + 2u, value.z); }
 fn out_2(row: u32, k: u32, value: vec2<f32>) { out_f(row, k, value.x); out_f(row, k + 1u, value.y); }
 @compute @workgroup_size(64)
-fn run_table(@builtin(global_invocation_id) global: vec3<u32>) { if global.x < batch.pairs { run_row(global.x); } }
+fn run_table(@builtin(global_invocation_id) global: vec3<u32>) { if global.x < control.batch.pairs { run_row(global.x); } }
 ";
 
 /// A scene on the device, for functions that read it.
@@ -60,13 +60,12 @@ impl Table<'_> {
             gpu.queue.write_buffer(&buffer, 0, bytes);
             buffer
         };
-        let (storage, uniform) = (wgpu::BufferUsages::STORAGE, wgpu::BufferUsages::UNIFORM);
+        let storage = wgpu::BufferUsages::STORAGE;
         let film = buffer((table.len() + rows * outputs) * 4, bytemuck::cast_slice(table), storage);
-        let params = buffer(size_of::<Params>(), bytemuck::bytes_of(&params), uniform);
-        let batch = buffer(size_of::<Batch>(), bytemuck::bytes_of(&batch), uniform);
+        let control = buffer(size_of::<Control>(), bytemuck::bytes_of(&Control { batch, params }), storage);
         let (vertices, output) = (buffer(1 << 16, &[], storage), buffer(1 << 16, &[], storage));
-        let [nodes, triangles, tables, attributes, texels] = &scene.buffers;
-        let all = [&params, nodes, triangles, tables, attributes, texels, &vertices, &film, &output, &batch];
+        let [nodes, triangles, tables, texels] = &scene.buffers;
+        let all = [&control, nodes, triangles, tables, texels, &vertices, &film, &output];
         let entries: Vec<_> =
             all.iter().zip(0..).map(|(buffer, binding)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() }).collect();
         let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout: &layouts.trace, entries: &entries });
