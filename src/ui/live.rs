@@ -266,7 +266,7 @@ impl Live {
         let current = self.engine.as_ref().map(Engine::job);
         let same_but_for_lens = current.is_some_and(|job| {
             Arc::ptr_eq(&job.scene, &shown.scene)
-                && (job.camera, job.size, job.settings) == (state.camera, state.size, state.settings)
+                && (job.camera, job.size, job.settings, job.backend) == (state.camera, state.size, state.settings, state.prefs.backend)
                 && !state.restart
         });
         if same_but_for_lens && (current.is_some_and(|job| job.lens == state.lens) || self.picture_is_coming()) {
@@ -280,6 +280,7 @@ impl Live {
             size: state.size,
             settings: state.settings,
             weighted_layers: true,
+            backend: state.prefs.backend,
             ..Job::new(shown.scene.clone())
         };
         let result = match &mut self.engine {
@@ -299,6 +300,7 @@ impl Live {
                 if let Some(job) = self.engine.as_ref().map(Engine::job) {
                     state.resize(job.size);
                     (state.settings, state.camera, state.lens) = (job.settings, job.camera, job.lens);
+                    state.prefs.backend = job.backend;
                 }
                 state.tell(true, error.0);
                 self.shown = self.running.clone();

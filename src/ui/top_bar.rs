@@ -7,6 +7,7 @@ use super::state::State;
 use super::text::{Lang, Text};
 use super::widgets::labelled;
 use crate::bdpt::{HeuristicKind, Strategy, StrategySet};
+use crate::engine::Backend;
 use eframe::egui::{Align, ComboBox, DragValue, Layout, Ui, UiBuilder};
 
 /// Film sizes on offer.
@@ -20,6 +21,12 @@ const HEURISTICS: &[(HeuristicKind, Text, Text)] = &[
     (HeuristicKind::Uniform, Text::Uniform, Text::HelpUniform),
 ];
 
+const BACKENDS: &[(Backend, Text, Text)] = &[
+    (Backend::Auto, Text::RendererAuto, Text::HelpRendererAuto),
+    (Backend::Gpu, Text::RendererGpu, Text::HelpRendererGpu),
+    (Backend::Cpu, Text::RendererCpu, Text::HelpRendererCpu),
+];
+
 /// Shows the bar.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     ui.horizontal_wrapped(|ui| {
@@ -29,6 +36,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
         heuristic(ui, state);
         numbers(ui, state);
         film_size(ui, state);
+        renderer(ui, state);
         ui.separator();
         let pause = state.say(if state.paused { Text::Resume } else { Text::Pause });
         if ui.button(pause).on_hover_text(keys::hint(state, Text::KeyPause, Action::Pause)).clicked() {
@@ -152,4 +160,18 @@ fn film_size(ui: &mut Ui, state: &mut State) {
         }
     });
     response.response.labelled_by(label.id).on_hover_text(state.say(Text::HelpFilmSize));
+}
+
+fn renderer(ui: &mut Ui, state: &mut State) {
+    let backend = state.prefs.backend;
+    let current = BACKENDS.iter().find(|(other, ..)| *other == backend).map_or(Text::RendererAuto, |(_, name, _)| *name);
+    let label = ui.label(state.say(Text::Renderer));
+    let response = ComboBox::from_id_salt("renderer").selected_text(state.say(current)).width(56.0).show_ui(ui, |ui| {
+        for (other, name, help) in BACKENDS {
+            if ui.selectable_label(*other == backend, state.say(*name)).on_hover_text(state.say(*help)).clicked() {
+                state.prefs.backend = *other;
+            }
+        }
+    });
+    response.response.labelled_by(label.id).on_hover_text(state.say(Text::HelpRenderer));
 }
