@@ -4,11 +4,11 @@
 use super::loader::{Failure, Loader};
 use super::state::{Opening, State};
 use super::text::{Text, fill};
+use super::wake::Wake;
 use crate::bdpt::record::StrategyRecord;
 use crate::bdpt::{Existence, PathRecord};
 use crate::engine::{self, Engine, Frame, Job};
 use crate::scene::{Lens, Scene, builtin};
-use eframe::egui;
 use std::sync::Arc;
 use std::time::Duration;
 use web_time::Instant;
@@ -44,7 +44,7 @@ struct RecordKey {
 
 /// The running half of the window.
 pub struct Live {
-    ctx: egui::Context,
+    wake: Wake,
     loader: Loader,
     engine: Option<Engine>,
     /// The scene to show, and the one the engine accepted last.
@@ -66,10 +66,10 @@ pub struct Live {
 
 impl Live {
     /// Nothing runs yet.
-    pub fn new(ctx: &egui::Context) -> Self {
+    pub fn new(wake: &Wake) -> Self {
         Self {
-            ctx: ctx.clone(),
-            loader: Loader::new(ctx),
+            wake: wake.clone(),
+            loader: Loader::new(wake),
             engine: None,
             shown: None,
             running: None,
@@ -286,8 +286,8 @@ impl Live {
         let result = match &mut self.engine {
             Some(engine) => engine.restart(job),
             None => {
-                let ctx = self.ctx.clone();
-                Engine::start(job, move || ctx.request_repaint()).map(|engine| self.engine = Some(engine))
+                let wake = self.wake.clone();
+                Engine::start(job, move || wake.now()).map(|engine| self.engine = Some(engine))
             }
         };
         state.retract(self.refused.take());
@@ -321,7 +321,7 @@ impl Live {
         let left = PATIENCE.saturating_sub(self.restarted.elapsed());
         let coming = !left.is_zero() && self.engine.as_ref().is_some_and(|engine| engine.frame().is_none());
         if coming {
-            self.ctx.request_repaint_after(left);
+            self.wake.within(left);
         }
         coming
     }

@@ -100,6 +100,7 @@ texts! {
     LoaderDied: "{}: reading this scene failed unexpectedly; please report the file", "{}：读取场景时意外失败，请反馈该文件";
     DropHere: "Drop a scene (.glb, .gltf) or an environment (.hdr, .exr) to open it", "松开鼠标以打开场景（.glb、.gltf）或环境图（.hdr、.exr）";
     NotAScene: "{}: only scenes (.glb, .gltf) and environments (.hdr, .exr) can be opened", "{}：只能打开场景（.glb、.gltf）和环境图（.hdr、.exr）";
+    DeviceRestarted: "The graphics device was lost and has been restarted; nothing was lost.", "图形设备曾丢失，现已重新启动；没有丢失任何内容。";
     // Image.
     ImageName: "Image, pixel {}, {} selected", "图像，已选像素 {}, {}";
     Exposure: "Exposure", "曝光";
