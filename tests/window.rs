@@ -37,6 +37,11 @@ fn a_device_that_is_lost_again_and_again_ends_the_window_with_advice() {
     in_a_process_of_its_own("case_lost_always");
 }
 
+#[test]
+fn a_device_that_is_lost_while_it_paints_ends_the_window_with_advice() {
+    in_a_process_of_its_own("case_lost_while_painting");
+}
+
 /// A display for as long as it is held.
 struct Display {
     name: String,
@@ -119,10 +124,13 @@ fn window(case: &str, every_pass: EveryPass<'_>) -> Option<Result<(), WindowErro
 }
 
 /// What a driver does that fails: from now on the device is of no use.
-fn lose(frame: &eframe::Frame) {
-    let device = &frame.wgpu_render_state().expect("wgpu draws the window").device;
+fn destroy(device: &wgpu::Device) {
     device.destroy();
     drop(device.poll(wgpu::PollType::wait_indefinitely()));
+}
+
+fn lose(frame: &eframe::Frame) {
+    destroy(&frame.wgpu_render_state().expect("wgpu draws the window").device);
 }
 
 /// Everything a person can have chosen.
@@ -235,5 +243,28 @@ fn case_lost_always() {
         assert!(why.contains("4 times within a minute") && why.contains("update the graphics driver"), "{why}");
         assert!(why.contains("bdpt-explorer render") && !why.contains('\n'), "{why}");
         assert_eq!(windows, 4);
+    }
+}
+
+/// Between the window's content and its painting: there egui's painter panics, and nothing but words can be saved.
+#[test]
+#[ignore = "run by another test, in a process of its own"]
+fn case_lost_while_painting() {
+    let mut armed = false;
+    let result = window(
+        "case_lost_while_painting",
+        Box::new(|Pass { app, ctx, frame, window }| {
+            ctx.request_repaint();
+            assert_eq!(window, 1, "no window follows");
+            if !armed && app.live().frame().is_some_and(|f| f.stats.spp >= 2.0) {
+                armed = true;
+                let device = frame.wgpu_render_state().expect("wgpu draws the window").device.clone();
+                ctx.on_end_pass("lose the device", Arc::new(move |_| destroy(&device)));
+            }
+        }),
+    );
+    if let Some(result) = result {
+        let Err(WindowError::Ended(why)) = result else { panic!("{result:?}") };
+        assert!(why.contains("start again") && why.contains("graphics driver"), "{why}");
     }
 }
