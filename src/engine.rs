@@ -15,7 +15,7 @@ use web_time::Instant;
 
 mod job;
 mod thread;
-pub use job::{FILM_BUDGET, Job, JobError, MAX_SIDE};
+pub use job::{Backend, FILM_BUDGET, Job, JobError, MAX_SIDE};
 pub use thread::{Engine, Frame, Thumbnail};
 
 /// Re-runs one sample of one pixel: the very path the renderer used. Takes well under a millisecond.
@@ -46,6 +46,8 @@ pub struct Stats {
     pub backend: String,
     /// The processor or graphics adapter that renders.
     pub adapter: String,
+    /// Why the GPU does not render although it was to: one English sentence.
+    pub fallback: Option<String>,
     /// Film width, pixels.
     pub width: u32,
     /// Film height, pixels.
@@ -64,6 +66,8 @@ pub struct Stats {
     pub seconds: f64,
     /// Processor time spent rendering, all threads, s.
     pub cpu_seconds: f64,
+    /// Mean wall-clock time of one piece of work given to the renderer (here a batch of rows), ms.
+    pub ms_per_dispatch: f64,
     /// Threads.
     pub threads: usize,
     /// Contributions that were no finite number, and were left out.
@@ -90,6 +94,9 @@ pub struct Stats {
     pub lost_paths: Vec<String>,
 }
 
+/// Why nothing renders on the GPU.
+const NO_GPU: &str = "This build has no GPU renderer.";
+
 /// A rendering in progress, driven by its caller (the command line, a test, the window's thread).
 #[derive(Debug)]
 pub struct Session {
@@ -104,6 +111,7 @@ pub struct Session {
     next_row: u32,
     counts: Counts,
     rows_done: u64,
+    batches: u64,
     elapsed: Duration,
     cpu: Duration,
     rows_per_second: f64,
@@ -127,6 +135,7 @@ impl Session {
             next_row: 0,
             counts: Counts::default(),
             rows_done: 0,
+            batches: 0,
             elapsed: Duration::ZERO,
             cpu: Duration::ZERO,
             rows_per_second: 0.0,
@@ -157,6 +166,7 @@ impl Session {
             self.counts = self.counts.plus(counts);
             self.next_row += rows;
             self.rows_done += u64::from(rows);
+            self.batches += 1;
             self.rows_per_second = f64::from(rows) / began.elapsed().as_secs_f64().max(1e-6);
             if start.elapsed() >= budget {
                 break;
@@ -220,6 +230,7 @@ impl Session {
         Stats {
             backend: "cpu".to_owned(),
             adapter: cpu_name(),
+            fallback: (self.job.backend == Backend::Gpu).then(|| NO_GPU.to_owned()),
             width: self.job.size[0],
             height: self.job.size[1],
             spp: self.film.mean_samples(),
@@ -229,6 +240,7 @@ impl Session {
             rays_shadow: self.counts.rays_shadow,
             seconds: self.elapsed.as_secs_f64(),
             cpu_seconds: self.cpu.as_secs_f64(),
+            ms_per_dispatch: self.elapsed.as_secs_f64() * 1e3 / self.batches.max(1) as f64,
             threads: rayon::current_num_threads(),
             non_finite: self.counts.non_finite,
             saturated: self.counts.saturated,

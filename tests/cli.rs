@@ -164,7 +164,7 @@ fn stats_have_the_agreed_keys() {
     let folder = tempfile::tempdir().unwrap();
     succeed(folder.path(), "render cornell --size 16x16 --spp 3 --stats s.json");
     let stats: serde_json::Value = serde_json::from_slice(&std::fs::read(folder.path().join("s.json")).unwrap()).unwrap();
-    let keys = "backend adapter width height spp max_edges pairs rays_closest rays_shadow seconds cpu_seconds threads non_finite peak_memory_bytes features lens_radius lost_paths";
+    let keys = "backend adapter width height spp max_edges pairs rays_closest rays_shadow seconds cpu_seconds ms_per_dispatch threads non_finite peak_memory_bytes features lens_radius lost_paths";
     for key in keys.split(' ') {
         assert!(!stats[key].is_null(), "{key}");
     }

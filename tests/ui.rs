@@ -25,6 +25,8 @@ mod layout;
 mod lens;
 #[path = "ui/measure.rs"]
 mod measure;
+#[path = "ui/renderer.rs"]
+mod renderer;
 #[path = "ui/scenes.rs"]
 mod scenes;
 #[path = "ui/screenshots.rs"]

@@ -46,8 +46,16 @@ impl From<SaveError> for Failure {
     }
 }
 
+/// Why there is no window (any more): one sentence.
+pub enum NoWindow {
+    /// It could not be opened: there is a picture to be had without one.
+    NotOpened(String),
+    /// It had to be closed.
+    Ended(String),
+}
+
 /// Runs the program. `open_window` opens the window and returns when it is closed, or says why there is none.
-pub fn main(open_window: impl FnOnce(Option<String>) -> Result<(), String>) -> ExitCode {
+pub fn main(open_window: impl FnOnce(Option<String>) -> Result<(), NoWindow>) -> ExitCode {
     let options = match Options::try_parse() {
         Ok(options) => options,
         Err(error) => return refuse(&error),
@@ -91,13 +99,14 @@ fn print(text: &str) {
 }
 
 /// Opens the window, or renders on the CPU where there is none.
-fn window(scene: Option<String>, open_window: impl FnOnce(Option<String>) -> Result<(), String>) -> Result<(), Failure> {
+fn window(scene: Option<String>, open_window: impl FnOnce(Option<String>) -> Result<(), NoWindow>) -> Result<(), Failure> {
     if let Some(name) = &scene {
         builtin::open(name)?;
     }
     match open_window(scene.clone()) {
         Ok(()) => Ok(()),
-        Err(why) => render::without_window(&why, scene.as_deref().unwrap_or("cornell")),
+        Err(NoWindow::Ended(why)) => Err(Failure(why)),
+        Err(NoWindow::NotOpened(why)) => render::without_window(&why, scene.as_deref().unwrap_or("cornell")),
     }
 }
 

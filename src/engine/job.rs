@@ -5,6 +5,7 @@ use crate::bdpt::render::Plan;
 use crate::bdpt::{Existence, MAX_EDGES, Settings};
 use crate::film::Film;
 use crate::scene::{Camera, Lens, Scene, View};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
 
@@ -15,6 +16,33 @@ pub const MAX_SIDE: u32 = 32_768;
 
 /// A lens narrower than this, in radii of the scene, is taken for a pinhole.
 const MIN_LENS: f32 = 1e-7;
+
+/// Who is to render.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Backend {
+    /// The GPU where it can, else the CPU.
+    #[default]
+    Auto,
+    /// The CPU.
+    Cpu,
+    /// The GPU; where it cannot, the CPU, which says why.
+    Gpu,
+}
+
+impl Backend {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Auto, Self::Cpu, Self::Gpu];
+
+    /// "auto", "cpu", "gpu".
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Cpu => "cpu",
+            Self::Gpu => "gpu",
+        }
+    }
+}
 
 /// What to render.
 #[derive(Clone, Debug)]
@@ -35,6 +63,8 @@ pub struct Job {
     pub weighted_layers: bool,
     /// Keep one image per strategy, unweighted.
     pub raw_layers: bool,
+    /// Who is to render it.
+    pub backend: Backend,
 }
 
 /// Why a job cannot be run: one line.
@@ -61,6 +91,7 @@ impl Job {
             settings: Settings::default(),
             weighted_layers: false,
             raw_layers: false,
+            backend: Backend::default(),
         }
     }
 
@@ -123,5 +154,19 @@ impl Job {
 
     pub(super) fn plan(&self) -> Plan {
         Plan::new(&self.settings, self.existence(), self.weighted_layers, self.raw_layers)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_backend_is_stored_under_its_name() {
+        for backend in Backend::ALL {
+            let stored = serde_json::to_string(&backend).unwrap_or_default();
+            assert_eq!(stored, format!("\"{}\"", backend.name()));
+            assert_eq!(serde_json::from_str::<Backend>(&stored).ok(), Some(backend));
+        }
     }
 }

@@ -4,6 +4,7 @@ use super::live::{Live, SceneSource};
 use super::pictures::Pictures;
 use super::state::{Maximised, Opening, Preferences, State};
 use super::text::{Text, fill};
+use super::wake::Wake;
 use super::{help, image_view, inspector, keys, messages, pyramid, scene_menu, status_bar, theme, top_bar};
 use eframe::egui::{self, Align2, CentralPanel, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
 use web_time::Instant;
@@ -27,6 +28,7 @@ pub struct Start {
 pub struct App {
     state: State,
     live: Live,
+    wake: Wake,
     pictures: Pictures,
     image: Rect,
     ui_ms: f32,
@@ -37,15 +39,27 @@ impl App {
     pub fn new(start: Start, ctx: &egui::Context, storage: Option<&dyn eframe::Storage>) -> Self {
         let preferences: Option<Preferences> = storage.and_then(|storage| eframe::get_value(storage, PREFERENCES));
         theme::install(ctx);
-        let mut live = Live::new(ctx);
+        let wake = Wake::new(ctx);
+        let mut live = Live::new(&wake);
         live.open(start.source);
         Self {
             state: State::new(preferences.unwrap_or_default(), start.size),
             live,
+            wake,
             pictures: Pictures::new(ctx),
             image: Rect::NOTHING,
             ui_ms: 0.0,
         }
+    }
+
+    /// Goes on in another window. What is rendered goes on, too; only what the old window drew with is made anew.
+    pub fn move_to(&mut self, ctx: &egui::Context) {
+        theme::install(ctx);
+        let old = self.wake.move_to(ctx);
+        // Widths of panels, positions of scroll bars.
+        let data = old.data(Clone::clone);
+        ctx.data_mut(|new| *new = data);
+        self.pictures = Pictures::new(ctx);
     }
 
     /// What a person chose.

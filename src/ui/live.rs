@@ -4,11 +4,11 @@
 use super::loader::{Failure, Loader};
 use super::state::{Opening, State};
 use super::text::{Text, fill};
+use super::wake::Wake;
 use crate::bdpt::record::StrategyRecord;
 use crate::bdpt::{Existence, PathRecord};
 use crate::engine::{self, Engine, Frame, Job};
 use crate::scene::{Lens, Scene, builtin};
-use eframe::egui;
 use std::sync::Arc;
 use std::time::Duration;
 use web_time::Instant;
@@ -44,7 +44,7 @@ struct RecordKey {
 
 /// The running half of the window.
 pub struct Live {
-    ctx: egui::Context,
+    wake: Wake,
     loader: Loader,
     engine: Option<Engine>,
     /// The scene to show, and the one the engine accepted last.
@@ -66,10 +66,10 @@ pub struct Live {
 
 impl Live {
     /// Nothing runs yet.
-    pub fn new(ctx: &egui::Context) -> Self {
+    pub fn new(wake: &Wake) -> Self {
         Self {
-            ctx: ctx.clone(),
-            loader: Loader::new(ctx),
+            wake: wake.clone(),
+            loader: Loader::new(wake),
             engine: None,
             shown: None,
             running: None,
@@ -266,7 +266,7 @@ impl Live {
         let current = self.engine.as_ref().map(Engine::job);
         let same_but_for_lens = current.is_some_and(|job| {
             Arc::ptr_eq(&job.scene, &shown.scene)
-                && (job.camera, job.size, job.settings) == (state.camera, state.size, state.settings)
+                && (job.camera, job.size, job.settings, job.backend) == (state.camera, state.size, state.settings, state.prefs.backend)
                 && !state.restart
         });
         if same_but_for_lens && (current.is_some_and(|job| job.lens == state.lens) || self.picture_is_coming()) {
@@ -280,13 +280,14 @@ impl Live {
             size: state.size,
             settings: state.settings,
             weighted_layers: true,
+            backend: state.prefs.backend,
             ..Job::new(shown.scene.clone())
         };
         let result = match &mut self.engine {
             Some(engine) => engine.restart(job),
             None => {
-                let ctx = self.ctx.clone();
-                Engine::start(job, move || ctx.request_repaint()).map(|engine| self.engine = Some(engine))
+                let wake = self.wake.clone();
+                Engine::start(job, move || wake.now()).map(|engine| self.engine = Some(engine))
             }
         };
         state.retract(self.refused.take());
@@ -299,6 +300,7 @@ impl Live {
                 if let Some(job) = self.engine.as_ref().map(Engine::job) {
                     state.resize(job.size);
                     (state.settings, state.camera, state.lens) = (job.settings, job.camera, job.lens);
+                    state.prefs.backend = job.backend;
                 }
                 state.tell(true, error.0);
                 self.shown = self.running.clone();
@@ -319,7 +321,7 @@ impl Live {
         let left = PATIENCE.saturating_sub(self.restarted.elapsed());
         let coming = !left.is_zero() && self.engine.as_ref().is_some_and(|engine| engine.frame().is_none());
         if coming {
-            self.ctx.request_repaint_after(left);
+            self.wake.within(left);
         }
         coming
     }

@@ -2,9 +2,9 @@
 
 use super::state::{Opening, State};
 use super::text::{Text, fill};
+use super::wake::Wake;
 use crate::scene::progress::Stage;
 use crate::scene::{Overrides, Progress, Scene, SceneError, builtin};
-use eframe::egui;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 /// Why there is no scene.
@@ -17,15 +17,15 @@ pub enum Failure {
 
 /// The scene being loaded, if any.
 pub struct Loader {
-    ctx: egui::Context,
+    wake: Wake,
     underway: Option<(Opening, Receiver<Result<Scene, SceneError>>)>,
     progress: Progress,
 }
 
 impl Loader {
     /// Nothing is loaded yet.
-    pub fn new(ctx: &egui::Context) -> Self {
-        Self { ctx: ctx.clone(), underway: None, progress: Progress::default() }
+    pub fn new(wake: &Wake) -> Self {
+        Self { wake: wake.clone(), underway: None, progress: Progress::default() }
     }
 
     /// Starts loading; what was underway is forgotten.
@@ -33,12 +33,12 @@ impl Loader {
         let (sender, receiver) = channel();
         // What was underway keeps its own.
         self.progress = Progress::default();
-        let (ctx, wanted, progress) = (self.ctx.clone(), opening.clone(), self.progress.clone());
+        let (wake, wanted, progress) = (self.wake.clone(), opening.clone(), self.progress.clone());
         self.underway = Some((opening, receiver));
         std::thread::spawn(move || {
             // A receiver that is gone waits for another scene by now.
             let _ = sender.send(read(&wanted, &progress));
-            ctx.request_repaint();
+            wake.now();
         });
     }
 

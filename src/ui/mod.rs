@@ -35,9 +35,12 @@ pub mod text;
 mod text_table;
 mod theme;
 mod top_bar;
+mod wake;
+#[cfg(not(target_arch = "wasm32"))]
+mod watch;
 mod widgets;
 
 pub use app::{App, Start};
 pub use live::{Live, SceneSource};
 #[cfg(not(target_arch = "wasm32"))]
-pub use native::run;
+pub use native::{EveryPass, Hooks, Pass, WindowError, open, run};

@@ -1,6 +1,7 @@
 //! What a person chose about the window itself; it survives a restart of the program.
 
 use super::text::Lang;
+use crate::engine::Backend;
 use serde::{Deserialize, Serialize};
 
 /// What is drawn over the image.
@@ -61,6 +62,8 @@ pub struct Preferences {
     pub lang: Lang,
     /// Dark theme?
     pub dark: bool,
+    /// Who is to render the image.
+    pub backend: Backend,
     /// What is drawn over the image.
     pub shown: Shown,
     /// Brightness of the pyramid's cells.
@@ -84,6 +87,7 @@ impl Default for Preferences {
         Self {
             lang: Lang::En,
             dark: true,
+            backend: Backend::default(),
             shown: Shown { eye: true, light: true, connections: true, blocked: true, splats: true, names: true, legend: true },
             gain: Gain::Each,
             cell: 82.0,

@@ -26,7 +26,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     let label = ui.label(state.say(Text::Scene));
     // A click into a path's field must not close the menu.
     let combo = ComboBox::from_id_salt("scene").close_behavior(PopupCloseBehavior::CloseOnClickOutside).height(HEIGHT);
-    let response = combo.selected_text(brief(&current)).width(110.0).show_ui(ui, |ui| {
+    let response = combo.selected_text(brief(&current)).width(96.0).show_ui(ui, |ui| {
         ui.set_min_width(WIDTH);
         for scene in builtin::list() {
             if ui.selectable_label(scene.name == current, scene.name).on_hover_text(scene.teaches).clicked() {

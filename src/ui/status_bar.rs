@@ -3,7 +3,8 @@
 use super::format;
 use super::live::Live;
 use super::state::State;
-use super::text::{Text, fill};
+use super::text::{Lang, Text, fill};
+use crate::engine::{Backend, Stats};
 use eframe::egui::{self, Align, Color32, Label, Layout, RichText, Ui, WidgetText, vec2};
 
 /// A word of the bar. Where there is no room for all of them, the longest explanations give way first.
@@ -80,6 +81,19 @@ fn fitted(ui: &Ui, items: &[Item], room: f32) -> Vec<f32> {
     widths
 }
 
+/// Which renderer runs, and on what.
+fn who_renders(stats: &Stats, lang: Lang) -> String {
+    let (backend, threads) = (stats.backend.to_uppercase(), stats.threads.to_string());
+    // A GPU's work is not divided among these threads.
+    let text = if stats.backend == Backend::Cpu.name() { Text::BackendThreads } else { Text::Backend };
+    fill(text.in_language(lang), &[&backend, &stats.adapter, &threads])
+}
+
+/// That the CPU renders what was meant for the GPU, and why.
+fn fell_back(stats: &Stats, lang: Lang) -> Option<String> {
+    stats.fallback.as_ref().map(|why| fill(Text::FellBack.in_language(lang), &[why]))
+}
+
 fn rendering(ui: &Ui, state: &State, live: &Live, ui_ms: f32) -> Vec<Item> {
     let mut items = Vec::new();
     let Some(frame) = live.frame() else {
@@ -88,9 +102,7 @@ fn rendering(ui: &Ui, state: &State, live: &Live, ui_ms: f32) -> Vec<Item> {
     };
     let coloured = |text: String, colour: Color32| RichText::new(text).color(colour);
     let stats = &frame.stats;
-    let backend = stats.backend.to_uppercase();
-    let who = if stats.adapter.is_empty() { backend } else { format!("{backend} · {}", stats.adapter) };
-    let who = fill(state.say(Text::Backend), &[&who, &stats.threads.to_string()]);
+    let who = who_renders(stats, state.prefs.lang);
     items.push(Item::new(who.clone(), format!("{}\n{who}", state.say(Text::HelpBackend)), 4));
     let samples = match live.first_pass() {
         Some(fraction) => fill(state.say(Text::FirstPass), &[&format!("{:.0}", fraction * 100.0)]),
@@ -106,9 +118,15 @@ fn rendering(ui: &Ui, state: &State, live: &Live, ui_ms: f32) -> Vec<Item> {
     if state.paused {
         items.push(Item::new(coloured(state.say(Text::Paused).to_owned(), ui.visuals().warn_fg_color), "", 1));
     }
+    if let Some(sentence) = fell_back(stats, state.prefs.lang) {
+        let text = coloured(sentence.clone(), ui.visuals().warn_fg_color);
+        items.push(Item::new(text, format!("{}\n{sentence}", state.say(Text::HelpRendererGpu)), 1));
+    }
     let speed = format!("{:.2}", frame.pairs_per_second * 1e-6);
     items.push(Item::new(fill(state.say(Text::Speed), &[&speed]), state.say(Text::HelpSpeed), 5));
-    items.push(Item::new(fill(state.say(Text::UiTime), &[&format!("{ui_ms:.1}")]), state.say(Text::HelpUiTime), 6));
+    let dispatch = format!("{:.1}", stats.ms_per_dispatch);
+    items.push(Item::new(fill(state.say(Text::DispatchTime), &[&dispatch]), state.say(Text::HelpDispatchTime), 6));
+    items.push(Item::new(fill(state.say(Text::UiTime), &[&format!("{ui_ms:.1}")]), state.say(Text::HelpUiTime), 7));
     if let Some(scene) = live.scene().filter(|scene| !scene.notes.is_empty()) {
         let count = scene.notes.len().to_string();
         items.push(Item::new(fill(state.say(Text::NotesCount), &[&count]), scene.notes.join("\n"), 3));
@@ -138,4 +156,22 @@ fn selection(state: &State, live: &Live) -> Vec<Item> {
         items.push(Item::new(text, state.say(Text::HelpPixelValue), 0));
     }
     items
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_renderer_and_what_fell_back_are_named() {
+        let cpu = Stats { backend: "cpu".into(), adapter: "Ryzen".into(), threads: 8, ..Stats::default() };
+        assert_eq!(who_renders(&cpu, Lang::En), "CPU · Ryzen · 8 threads");
+        assert_eq!(fell_back(&cpu, Lang::En), None);
+        let gpu = Stats { backend: "gpu".into(), adapter: "Radeon".into(), ..cpu.clone() };
+        assert_eq!(who_renders(&gpu, Lang::Zh), "GPU · Radeon");
+        let fallen = Stats { fallback: Some("There is no adapter.".into()), ..cpu };
+        for lang in [Lang::En, Lang::Zh] {
+            assert!(fell_back(&fallen, lang).is_some_and(|text| text.contains("CPU") && text.ends_with("There is no adapter.")));
+        }
+    }
 }

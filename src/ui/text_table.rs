@@ -74,6 +74,14 @@ texts! {
     HelpRoulette: "Russian roulette ends subpaths at dark surfaces early. The mean stays the same.", "俄罗斯轮盘赌让子路径在暗表面提前结束；期望值不变。";
     FilmSize: "Film", "画幅";
     HelpFilmSize: "Size of the image in pixels", "图像尺寸（像素）";
+    Renderer: "Renderer", "渲染";
+    HelpRenderer: "Who renders the image. The rest stays as it is: scene, camera, selection, what is hidden or removed.", "由谁渲染图像。其余不变：场景、相机、所选内容、隐藏与移除的策略。";
+    RendererAuto: "auto", "自动";
+    RendererGpu: "GPU", "GPU";
+    RendererCpu: "CPU", "CPU";
+    HelpRendererAuto: "Automatic: the GPU where it can, else the CPU", "自动：优先使用 GPU，不可用时使用 CPU";
+    HelpRendererGpu: "The graphics adapter; where it cannot, the CPU, and the status bar says why", "图形适配器；不可用时由 CPU 渲染，并在状态栏说明原因";
+    HelpRendererCpu: "The processor, on all its threads", "处理器的全部线程";
     Pause: "Pause", "暂停";
     Resume: "Resume", "继续";
     Restart: "Restart", "重新开始";
@@ -92,6 +100,7 @@ texts! {
     LoaderDied: "{}: reading this scene failed unexpectedly; please report the file", "{}：读取场景时意外失败，请反馈该文件";
     DropHere: "Drop a scene (.glb, .gltf) or an environment (.hdr, .exr) to open it", "松开鼠标以打开场景（.glb、.gltf）或环境图（.hdr、.exr）";
     NotAScene: "{}: only scenes (.glb, .gltf) and environments (.hdr, .exr) can be opened", "{}：只能打开场景（.glb、.gltf）和环境图（.hdr、.exr）";
+    DeviceRestarted: "The graphics device was lost and has been restarted; nothing was lost.", "图形设备曾丢失，现已重新启动；没有丢失任何内容。";
     // Image.
     ImageName: "Image, pixel {}, {} selected", "图像，已选像素 {}, {}";
     Exposure: "Exposure", "曝光";
@@ -145,7 +154,9 @@ texts! {
     LoadingImages: "Decoding the images, {} of {} …", "正在解码图像，{} / {}……";
     LoadingHierarchy: "Building the hierarchy over {} triangles …", "正在为 {} 个三角形构建层次结构……";
     Waiting: "Waiting for the first picture …", "正在等待第一幅图像……";
-    Backend: "{} · {} threads", "{} · {} 线程";
+    Backend: "{} · {}", "{} · {}";
+    BackendThreads: "{} · {} · {} threads", "{} · {} · {} 线程";
+    FellBack: "Note: the CPU renders. {}", "提示：由 CPU 渲染。{}";
     HelpBackend: "What renders the image", "由谁渲染图像";
     SamplesSoFar: "{} samples per pixel", "每像素 {} 个采样";
     HelpSamples: "Samples so far: pairs of a light and an eye subpath per pixel", "已完成的采样：每像素的光源与视线子路径对数";
@@ -156,6 +167,8 @@ texts! {
     Paused: "paused", "已暂停";
     Speed: "{} Mpairs/s", "{} 百万对/秒";
     HelpSpeed: "Million pairs of a light and an eye subpath per second", "每秒完成的子路径对（百万）";
+    DispatchTime: "{} ms per dispatch", "每次调度 {} 毫秒";
+    HelpDispatchTime: "Mean time of one piece of work given to the renderer: a dispatch on the GPU, a batch of rows on the CPU", "每次交给渲染器的工作的平均用时：GPU 上为一次调度，CPU 上为一批像素行";
     UiTime: "window {} ms", "界面 {} 毫秒";
     HelpUiTime: "Time the window needs for one of its own frames", "界面绘制一帧所用的时间";
     NotesCount: "notes on the scene: {}", "场景说明：{} 条";

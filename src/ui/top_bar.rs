@@ -7,7 +7,8 @@ use super::state::State;
 use super::text::{Lang, Text};
 use super::widgets::labelled;
 use crate::bdpt::{HeuristicKind, Strategy, StrategySet};
-use eframe::egui::{Align, ComboBox, DragValue, Layout, Ui, UiBuilder};
+use crate::engine::Backend;
+use eframe::egui::{Align, ComboBox, DragValue, Layout, Response, Role, Ui, UiBuilder, WidgetInfo};
 
 /// Film sizes on offer.
 pub const SIZES: &[[u32; 2]] = &[[128, 128], [256, 256], [512, 512], [768, 768], [1024, 1024], [640, 360], [960, 540]];
@@ -20,6 +21,12 @@ const HEURISTICS: &[(HeuristicKind, Text, Text)] = &[
     (HeuristicKind::Uniform, Text::Uniform, Text::HelpUniform),
 ];
 
+const BACKENDS: &[(Backend, Text, Text)] = &[
+    (Backend::Auto, Text::RendererAuto, Text::HelpRendererAuto),
+    (Backend::Gpu, Text::RendererGpu, Text::HelpRendererGpu),
+    (Backend::Cpu, Text::RendererCpu, Text::HelpRendererCpu),
+];
+
 /// Shows the bar.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     ui.horizontal_wrapped(|ui| {
@@ -29,6 +36,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
         heuristic(ui, state);
         numbers(ui, state);
         film_size(ui, state);
+        renderer(ui, state);
         ui.separator();
         let pause = state.say(if state.paused { Text::Resume } else { Text::Pause });
         if ui.button(pause).on_hover_text(keys::hint(state, Text::KeyPause, Action::Pause)).clicked() {
@@ -108,7 +116,7 @@ fn heuristic(ui: &mut Ui, state: &mut State) {
     let kind = state.settings.heuristic.kind;
     let current = HEURISTICS.iter().find(|(other, ..)| *other == kind).map_or(Text::Power, |(_, name, _)| *name);
     let label = ui.label(state.say(Text::Heuristic));
-    let response = ComboBox::from_id_salt("heuristic").selected_text(state.say(current)).width(80.0).show_ui(ui, |ui| {
+    let response = ComboBox::from_id_salt("heuristic").selected_text(state.say(current)).width(70.0).show_ui(ui, |ui| {
         for (other, name, help) in HEURISTICS {
             if ui.selectable_label(*other == kind, state.say(*name)).on_hover_text(state.say(*help)).clicked() {
                 state.settings.heuristic.kind = *other;
@@ -143,7 +151,6 @@ fn numbers(ui: &mut Ui, state: &mut State) {
 
 fn film_size(ui: &mut Ui, state: &mut State) {
     let shown = |size: [u32; 2]| format!("{}×{}", size[0], size[1]);
-    let label = ui.label(state.say(Text::FilmSize));
     let response = ComboBox::from_id_salt("film size").selected_text(shown(state.size)).width(84.0).show_ui(ui, |ui| {
         for size in SIZES {
             if ui.selectable_label(*size == state.size, shown(*size)).clicked() {
@@ -151,5 +158,26 @@ fn film_size(ui: &mut Ui, state: &mut State) {
             }
         }
     });
-    response.response.labelled_by(label.id).on_hover_text(state.say(Text::HelpFilmSize));
+    named(response.response, state, Text::FilmSize, Text::HelpFilmSize);
+}
+
+fn renderer(ui: &mut Ui, state: &mut State) {
+    let backend = state.prefs.backend;
+    let current = BACKENDS.iter().find(|(other, ..)| *other == backend).map_or(Text::RendererAuto, |(_, name, _)| *name);
+    let combo = ComboBox::from_id_salt("renderer").selected_text(state.say(current)).width(52.0);
+    let response = combo.show_ui(ui, |ui| {
+        for (other, name, help) in BACKENDS {
+            if ui.selectable_label(*other == backend, state.say(*name)).on_hover_text(state.say(*help)).clicked() {
+                state.prefs.backend = *other;
+            }
+        }
+    });
+    named(response.response, state, Text::Renderer, Text::HelpRenderer);
+}
+
+/// A control that says what it is by itself: the row has no room for its name, which a screen reader and the tooltip tell.
+fn named(response: Response, state: &State, name: Text, help: Text) {
+    let name = state.say(name);
+    response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
+    response.on_hover_text(format!("{name}: {}", state.say(help)));
 }

@@ -40,6 +40,18 @@ fn nothing_overlaps_in_the_top_bar_at_any_width() {
 }
 
 #[test]
+fn the_top_bar_is_one_row_in_a_window_of_the_first_size() {
+    let mut window = cornell();
+    for lang in [Lang::En, Lang::Zh] {
+        window.state_mut().state_mut().prefs.lang = lang;
+        window.run_steps(4);
+        let rows = top_bar(&window).into_iter().map(|(_, rect)| rect.center().y);
+        let (top, bottom) = rows.fold((f32::MAX, f32::MIN), |(top, bottom), y| (top.min(y), bottom.max(y)));
+        assert!(bottom - top < 8.0, "{lang:?}: rows from {top} to {bottom}");
+    }
+}
+
+#[test]
 fn a_path_can_be_typed_into_the_scene_menu() {
     let mut window = cornell();
     window.get_by_role_and_label(Role::ComboBox, "Scene").click();
