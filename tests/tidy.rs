@@ -25,6 +25,7 @@ const HOMES: &[(&str, &[&str])] = &[
     ("image", &["film/", "scene/"]),
     ("indicatif", &["cli/"]),
     ("obvhs", &["scene/bvh.rs"]),
+    ("pollster", &["engine/"]),
     ("rayon", &["bdpt/", "film/", "engine.rs", "engine/", "scene/gltf/images.rs"]),
     ("wgpu", &["gpu/", "ui/"]),
     ("winit", &["ui/"]),

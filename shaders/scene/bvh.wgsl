@@ -191,6 +191,10 @@ fn mantissa_and_exponent(x: f32) -> vec2<u32> {
     return vec2<u32>(fraction << shift, bitcast<u32>(1 - i32(shift)));
 }
 
+// The nodes that wait, and where a ray enters them: for one traversal at a time, so that nothing is cleared for each.
+var<private> waiting: array<u32, STACK_SIZE>;
+var<private> entries: array<f32, STACK_SIZE>;
+
 // What a closest-hit traversal found.
 struct Closest {
     hit: Hit,
@@ -205,8 +209,6 @@ fn closest_hit(ray: Ray, draws: vec4<u32>) -> Closest {
     if control.params.triangles_count == 0u {
         return best;
     }
-    var waiting: array<u32, STACK_SIZE>;
-    var entries: array<f32, STACK_SIZE>;
     var top = 0u;
     var node = nodes[0];
     loop {
@@ -272,7 +274,6 @@ fn transmittance(prepared: PreparedRay, t_max: f32) -> f32 {
         return 1.0;
     }
     var v = 1.0;
-    var waiting: array<u32, STACK_SIZE>;
     var top = 0u;
     var node = nodes[0];
     loop {

@@ -2,7 +2,7 @@
 
 use super::values::*;
 use crate::bdpt::{HeuristicKind, Strategy};
-use crate::engine::Crop;
+use crate::engine::{Backend, Crop};
 use crate::film::tonemap::ToneMap;
 use crate::scene::environment::EnvironmentSource;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -45,9 +45,9 @@ pub struct RenderArgs {
     /// Only this window of the picture, from its top left pixel; what lies in it does not change
     #[arg(long, value_name = "X,Y,W,H", value_parser = crop, allow_hyphen_values = true)]
     pub crop: Option<Crop>,
-    /// Which renderer
-    #[arg(long, value_name = "NAME", value_parser = ["cpu", "auto"], default_value = "auto")]
-    pub backend: String,
+    /// Which renderer; auto is the GPU unless its adapter runs on the processor, and what the GPU cannot do the CPU does
+    #[arg(long, value_name = "NAME", value_parser = backend_parser(), default_value = "auto")]
+    pub backend: Backend,
     /// What becomes of strategies that --strategies does not list: their weight goes to the listed (remove), or they are
     /// left out of the sum and all weights stay (hide)
     #[arg(long = "strategies-mode", value_name = "MODE", action = ArgAction::Set, value_parser = PossibleValuesParser::new(["remove", "hide"]).map(|mode| mode == "hide"), default_value = "remove")]
@@ -158,6 +158,11 @@ fn heuristic_parser() -> impl TypedValueParser<Value = HeuristicKind> {
         "uniform" => HeuristicKind::Uniform,
         _ => HeuristicKind::Power,
     })
+}
+
+fn backend_parser() -> impl TypedValueParser<Value = Backend> {
+    PossibleValuesParser::new(Backend::ALL.map(Backend::name))
+        .map(|name| Backend::ALL.into_iter().find(|backend| backend.name() == name).unwrap_or_default())
 }
 
 fn tonemap_parser() -> impl TypedValueParser<Value = ToneMap> {

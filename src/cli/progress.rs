@@ -33,6 +33,8 @@ fn listen() -> Result<(), Failure> {
 /// Renders until `limit`; true if Ctrl-C ended it earlier.
 pub fn run(session: &mut Session, limit: Limit) -> Result<bool, Failure> {
     listen()?;
+    session.wait_for_renderer();
+    session.set_limit(limit.spp.unwrap_or(u32::MAX));
     let start = Instant::now();
     let bar = bar(limit);
     loop {
@@ -43,11 +45,13 @@ pub fn run(session: &mut Session, limit: Limit) -> Result<bool, Failure> {
         }
         if INTERRUPTS.load(Relaxed) > 0 && passes >= 1 && session.pass_fraction() == 0.0 {
             bar.abandon();
+            session.collect();
             return Ok(true);
         }
         let left = limit.time.map_or(Duration::MAX, |time| time.saturating_sub(elapsed));
         session.step(left.min(Duration::from_millis(100)));
     }
+    session.collect();
     bar.finish_and_clear();
     Ok(false)
 }

@@ -5,7 +5,7 @@ use super::job::{Prepared, open, prepare, say_notes, say_what_is_lost};
 use super::progress::{self, Limit};
 use super::{Failure, print};
 use crate::bdpt::{HeuristicKind, Strategy, StrategySet};
-use crate::engine::{Job, Session};
+use crate::engine::{Job, Notice, Session};
 use crate::film::Rect;
 use crate::film::save::{Layer, Window, check_writable, save_bytes, save_exr, save_png};
 use crate::film::tonemap::{ToneMap, to_srgb8};
@@ -27,6 +27,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 pub fn run(args: &RenderArgs) -> Result<(), Failure> {
     let Prepared { mut job, shown, hide } = prepare(&args.estimator, args.hide)?;
     job.crop = args.crop;
+    job.backend = args.backend;
     job.weighted_layers |= args.pyramid.is_some();
     job.raw_layers = args.pyramid.is_some();
     job.check()?;
@@ -198,6 +199,12 @@ impl Rendering {
     /// Says what was done, on stdout; what is odd about it, on stderr.
     fn report(&self, files: &[PathBuf], interrupted: bool) {
         let (stats, passes) = (self.session.stats(), self.session.passes());
+        if let Some(why) = &stats.fallback {
+            eprintln!("note: {why} The CPU rendered.");
+        }
+        if let Some(Notice::DeviceReplaced(why)) = &stats.notice {
+            eprintln!("note: {why}; another was opened, and nothing is missing");
+        }
         if interrupted {
             eprintln!("note: stopped by Ctrl-C after {passes} samples per pixel");
         }

@@ -80,7 +80,7 @@ impl fmt::Display for JobError {
 impl std::error::Error for JobError {}
 
 impl Job {
-    /// The job for a scene at the program's defaults: first camera, 512 × 512, K = 6, seed 0.
+    /// The job for a scene at the program's defaults: first camera, 512 × 512, K = 6, seed 0; on the CPU, which is the reference.
     pub fn new(scene: Arc<Scene>) -> Self {
         Self {
             scene,
@@ -91,7 +91,7 @@ impl Job {
             settings: Settings::default(),
             weighted_layers: false,
             raw_layers: false,
-            backend: Backend::default(),
+            backend: Backend::Cpu,
         }
     }
 

@@ -69,7 +69,7 @@ impl Engine {
     /// Starts rendering. `wake` is called, from the render thread, whenever a new frame is ready.
     pub fn start(job: Job, wake: impl Fn() + Send + Sync + 'static) -> Result<Self, JobError> {
         let job = Job { weighted_layers: true, ..job };
-        let session = Session::new(job.clone())?;
+        let session = Session::for_window(job.clone())?;
         let (commands, inbox) = channel();
         let frame = Arc::new(Mutex::new(None));
         let worker =
@@ -190,13 +190,14 @@ impl Worker {
 
     fn restart(&mut self, job: Job, generation: u64) {
         // It was checked when it was sent.
-        if let Ok(session) = Session::new(job) {
+        if let Ok(session) = Session::for_window(job) {
             (self.session, self.generation) = (session, generation);
             self.session.step(SLICE);
         }
     }
 
-    fn publish(&self) {
+    fn publish(&mut self) {
+        self.session.collect();
         let frame = Arc::new(make_frame(&self.session, self.generation, self.hidden));
         *self.frame.lock().unwrap_or_else(PoisonError::into_inner) = Some(frame);
         (self.wake)();
@@ -205,11 +206,11 @@ impl Worker {
 
 /// One look at a session: every sum is read once, for the image and for its thumbnail, rows in parallel.
 fn make_frame(session: &Session, generation: u64, hidden: StrategySet) -> Frame {
-    let [width, height] = session.job.size;
+    let ([width, height], (film, plan)) = (session.job().size, session.parts());
     let factor = width.max(height).div_ceil(THUMBNAIL_SIDE).max(1);
     let small = [width.div_ceil(factor), height.div_ceil(factor)];
-    let layers: Vec<_> = session.plan.strategies().filter_map(|x| Some((x, session.plan.layer(x, true)?, !hidden.contains(x)))).collect();
-    let means = session.film.preview();
+    let layers: Vec<_> = plan.strategies().filter_map(|x| Some((x, plan.layer(x, true)?, !hidden.contains(x)))).collect();
+    let means = film.preview();
 
     // One row of thumbnails per chunk of rows; `sums` is [strategy][column].
     let mut image = vec![Vec3::ZERO; width as usize * height as usize];

@@ -148,6 +148,11 @@ impl Film {
         self.row_samples.iter_mut().zip(rows).for_each(|(samples, more)| *samples += more);
     }
 
+    /// Samples of the row that has the most.
+    pub fn most_samples(&self) -> u32 {
+        self.row_samples.iter().copied().max().unwrap_or(0)
+    }
+
     /// The means, for someone who looks at the film as it is now.
     pub fn means(&self) -> Means<'_> {
         let passes = self.mean_samples();

@@ -17,6 +17,14 @@ struct Mishaps {
     any: AtomicBool,
 }
 
+impl Mishaps {
+    /// The device is lost, unless that is known already.
+    fn lose(&self, why: String) {
+        self.lost.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(why);
+        self.any.store(true, Relaxed);
+    }
+}
+
 /// An open device.
 #[derive(Clone, Debug)]
 pub struct Gpu {
@@ -65,8 +73,7 @@ impl Gpu {
         let on_lost = Arc::clone(&mishaps);
         device.set_device_lost_callback(move |reason, message| {
             let text = if message.is_empty() { format!("{reason:?}").to_lowercase() } else { message };
-            on_lost.lost.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(text);
-            on_lost.any.store(true, Relaxed);
+            on_lost.lose(text);
         });
         let on_error = Arc::clone(&mishaps);
         device.on_uncaptured_error(Arc::new(move |error| {
@@ -82,6 +89,8 @@ impl Gpu {
     /// # Errors
     /// The loss of the device, or else the first error that no scope caught.
     pub fn check(&self) -> Result<(), GpuError> {
+        // A loss is told when the device is polled.
+        drop(self.device.poll(wgpu::PollType::Poll));
         if !self.mishaps.any.load(Relaxed) {
             return Ok(());
         }
@@ -89,6 +98,21 @@ impl Gpu {
             return Err(GpuError::Lost(why));
         }
         self.mishaps.error.lock().unwrap_or_else(PoisonError::into_inner).clone().map_or(Ok(()), Err)
+    }
+
+    /// Is it this very device? (wgpu's handles count anew in every instance.)
+    pub fn is(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.mishaps, &other.mishaps)
+    }
+
+    /// Waits for a submission, or for all.
+    pub(super) fn wait(&self, submission_index: Option<wgpu::SubmissionIndex>) -> Result<(), GpuError> {
+        let polled = self.device.poll(wgpu::PollType::Wait { submission_index, timeout: None });
+        if let Err(error) = polled {
+            // A device that cannot be waited for has dropped its work, and may tell so later.
+            self.mishaps.lose(error.to_string());
+        }
+        self.check()
     }
 
     /// Does it run on the processor?

@@ -231,7 +231,9 @@ impl Renderer {
             while self.in_flight.len() > 1 {
                 self.wait().await?;
             }
-            if start.elapsed() >= budget {
+            // Whoever has little time to give still sees passes end.
+            let enough = if self.next == 0 { budget / 2 } else { budget };
+            if start.elapsed() >= enough {
                 break;
             }
         }
@@ -241,6 +243,11 @@ impl Renderer {
     /// Passes that are not in the film yet.
     pub fn uncollected(&self) -> u32 {
         self.rows.iter().copied().max().unwrap_or(0)
+    }
+
+    /// Is there as much to collect as may be?
+    pub fn is_full(&self) -> bool {
+        self.uncollected() >= MOST_PASSES
     }
 
     /// Submits one slice of work.
@@ -331,9 +338,7 @@ impl Renderer {
     /// Waits for the oldest submission.
     async fn wait(&mut self) -> Result<(), GpuError> {
         let Some(oldest) = self.in_flight.pop_front() else { return Ok(()) };
-        let polled = self.gpu.device.poll(wgpu::PollType::Wait { submission_index: Some(oldest.index), timeout: None });
-        self.gpu.check()?;
-        polled.map_err(|error| GpuError::Refused(error.to_string()))?;
+        self.gpu.wait(Some(oldest.index))?;
         let ended = oldest.done.lock().unwrap_or_else(PoisonError::into_inner).unwrap_or_else(Instant::now);
         let seconds = ended.saturating_duration_since(oldest.began).as_secs_f64().max(1e-6);
         // The next one has been waiting for this one: its own time begins now.
@@ -398,13 +403,15 @@ impl Renderer {
         self.staging.map_async(wgpu::MapMode::Read, 0..size, move |outcome| {
             *result.lock().unwrap_or_else(PoisonError::into_inner) = Some(outcome);
         });
-        let polled = self.gpu.device.poll(wgpu::PollType::Wait { submission_index: None, timeout: None });
-        self.gpu.check()?;
-        polled.map_err(|error| GpuError::Refused(error.to_string()))?;
-        match mapped.lock().unwrap_or_else(PoisonError::into_inner).take() {
-            Some(Ok(())) => {}
-            outcome => return Err(GpuError::Refused(format!("reading back: {outcome:?}"))),
-        }
+        // Another thread that polls the device may be the one that calls back, a little later.
+        let outcome = loop {
+            self.gpu.wait(None)?;
+            if let Some(outcome) = mapped.lock().unwrap_or_else(PoisonError::into_inner).take() {
+                break outcome;
+            }
+            std::thread::yield_now();
+        };
+        outcome.map_err(|error| GpuError::Refused(error.to_string()))?;
         let view = self.staging.get_mapped_range(0..size).map_err(|error| GpuError::Refused(error.to_string()))?;
         let seen = look(&view);
         drop(view);

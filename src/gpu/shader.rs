@@ -1,6 +1,7 @@
 //! The WGSL source: an ordered list of files, joined, with a map from its lines back to theirs.
 
 use super::{Gpu, GpuError};
+use crate::scene::bvh::{SMALL_STACK, STACK_SIZE};
 
 /// A file of the source: its path below shaders/ and its text.
 pub type File = (&'static str, &'static str);
@@ -64,7 +65,8 @@ impl Source {
     /// The same out of other files: for tests.
     pub fn of(files: &[File], depth: u32) -> Self {
         let mut source = Self { text: String::new(), parts: Vec::new() };
-        source.push("prelude", &format!("const STACK_SIZE: u32 = {}u;\n", if depth <= 16 { 16 } else { crate::scene::bvh::STACK_SIZE }));
+        let stack = if depth <= SMALL_STACK { SMALL_STACK } else { STACK_SIZE as u32 };
+        source.push("prelude", &format!("const STACK_SIZE: u32 = {stack}u;\n"));
         files.iter().for_each(|(name, text)| source.push(name, text));
         source
     }

@@ -84,6 +84,9 @@ pub struct Bvh {
     pub depth: u32,
 }
 
+/// Trees up to this depth are walked with a small stack.
+pub const SMALL_STACK: u32 = 16;
+
 /// Deepest tree the traversal can walk.
 pub const STACK_SIZE: usize = 64;
 
@@ -167,7 +170,7 @@ impl Bvh {
     fn traverse<const ANY: bool>(&self, triangles: &[Triangle], ray: &PreparedRay, t_max: f32, visit: impl FnMut(&Hit) -> Visit) -> bool {
         // A small scene's stack is so small that clearing it costs nothing.
         match self.depth {
-            0..=16 => self.traverse_with::<16, ANY>(triangles, ray, t_max, visit),
+            0..=SMALL_STACK => self.traverse_with::<{ SMALL_STACK as usize }, ANY>(triangles, ray, t_max, visit),
             _ => self.traverse_with::<STACK_SIZE, ANY>(triangles, ray, t_max, visit),
         }
     }

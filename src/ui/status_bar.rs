@@ -4,7 +4,7 @@ use super::format;
 use super::live::Live;
 use super::state::State;
 use super::text::{Lang, Text, fill};
-use crate::engine::{Backend, Stats};
+use crate::engine::{Backend, Notice, Stats};
 use eframe::egui::{self, Align, Color32, Label, Layout, RichText, Ui, WidgetText, vec2};
 
 /// A word of the bar. Where there is no room for all of them, the longest explanations give way first.
@@ -94,6 +94,14 @@ fn fell_back(stats: &Stats, lang: Lang) -> Option<String> {
     stats.fallback.as_ref().map(|why| fill(Text::FellBack.in_language(lang), &[why]))
 }
 
+/// What else is to be known about who renders, and whether it is a warning.
+fn noticed(stats: &Stats, lang: Lang) -> Option<(String, bool)> {
+    match stats.notice.as_ref()? {
+        Notice::Compiling => Some((Text::Compiling.in_language(lang).to_owned(), false)),
+        Notice::DeviceReplaced(why) => Some((fill(Text::DeviceReplaced.in_language(lang), &[why]), true)),
+    }
+}
+
 fn rendering(ui: &Ui, state: &State, live: &Live, ui_ms: f32) -> Vec<Item> {
     let mut items = Vec::new();
     let Some(frame) = live.frame() else {
@@ -121,6 +129,10 @@ fn rendering(ui: &Ui, state: &State, live: &Live, ui_ms: f32) -> Vec<Item> {
     if let Some(sentence) = fell_back(stats, state.prefs.lang) {
         let text = coloured(sentence.clone(), ui.visuals().warn_fg_color);
         items.push(Item::new(text, format!("{}\n{sentence}", state.say(Text::HelpRendererGpu)), 1));
+    }
+    if let Some((sentence, warning)) = noticed(stats, state.prefs.lang) {
+        let colour = if warning { ui.visuals().warn_fg_color } else { ui.visuals().text_color() };
+        items.push(Item::new(coloured(sentence.clone(), colour), sentence, 1));
     }
     let speed = format!("{:.2}", frame.pairs_per_second * 1e-6);
     items.push(Item::new(fill(state.say(Text::Speed), &[&speed]), state.say(Text::HelpSpeed), 5));

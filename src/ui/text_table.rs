@@ -157,6 +157,8 @@ texts! {
     Backend: "{} · {}", "{} · {}";
     BackendThreads: "{} · {} · {} threads", "{} · {} · {} 线程";
     FellBack: "Note: the CPU renders. {}", "提示：由 CPU 渲染。{}";
+    Compiling: "Compiling for the GPU; the CPU renders meanwhile", "正在为 GPU 编译；暂由 CPU 渲染";
+    DeviceReplaced: "Note: {}; another was opened, and the picture goes on", "提示：{}；已重新打开设备，画面继续";
     HelpBackend: "What renders the image", "由谁渲染图像";
     SamplesSoFar: "{} samples per pixel", "每像素 {} 个采样";
     HelpSamples: "Samples so far: pairs of a light and an eye subpath per pixel", "已完成的采样：每像素的光源与视线子路径对数";

@@ -5,8 +5,10 @@
 #[allow(dead_code, reason = "made for the ladder, of which this is a rung")]
 #[path = "../ladder/emitters_scenes.rs"]
 mod emitters_scenes;
+mod engine;
 mod harness;
 mod images;
+mod measure;
 mod table;
 mod twins;
 #[allow(dead_code, reason = "made for the ladder, of which this is a rung")]
