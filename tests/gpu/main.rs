@@ -5,8 +5,12 @@
 #[allow(dead_code, reason = "made for the ladder, of which this is a rung")]
 #[path = "../ladder/emitters_scenes.rs"]
 mod emitters_scenes;
+mod compare;
+mod fields;
 mod harness;
 mod images;
+mod layout;
+mod load;
 mod table;
 mod twins;
 #[allow(dead_code, reason = "made for the ladder, of which this is a rung")]

@@ -1,6 +1,6 @@
 //! Runs a function of the kernels over a table: rows of numbers go in, rows of numbers come out.
 //!
-//! `film` holds both, as it is the one binding that takes any numbers; the other bindings are a real scene's.
+//! The film's binding holds both, here as words, so that bits survive; the other bindings are a real scene's.
 
 use crate::harness::Work;
 use bdpt_explorer::gpu::shader::Source;
@@ -9,14 +9,15 @@ use pollster::block_on;
 
 /// Helpers of a table's kernel; `inputs` and `outputs` are the numbers of a row.
 const HELPERS: &str = "
-fn in_f(row: u32, k: u32) -> f32 { return film[row * INPUTS + k]; }
-fn in_u(row: u32, k: u32) -> u32 { return bitcast<u32>(film[row * INPUTS + k]); }
-fn in_v(row: u32, k: u32) -> vec3<f32> { return vec3<f32>(in_f(row, k), in_f(row, k + 1u), in_f(row, k + 2u)); }
+@group(0) @binding(6) var<storage, read_write> table: array<u32>;
+fn in_u(row: u32, k: u32) -> u32 { return table[row * INPUTS + k]; }
+fn in_f(row: u32, k: u32) -> f32 { return bitcast<f32>(in_u(row, k)); }
 fn in_2(row: u32, k: u32) -> vec2<f32> { return vec2<f32>(in_f(row, k), in_f(row, k + 1u)); }
-fn out_f(row: u32, k: u32, value: f32) { film[control.batch.pairs * INPUTS + row * OUTPUTS + k] = value; }
-fn out_u(row: u32, k: u32, value: u32) { out_f(row, k, bitcast<f32>(value)); }
-fn out_v(row: u32, k: u32, value: vec3<f32>) { out_f(row, k, value.x); out_f(row, k + 1u, value.y); out_f(row, k + 2u, value.z); }
+fn in_v(row: u32, k: u32) -> vec3<f32> { return vec3<f32>(in_f(row, k), in_f(row, k + 1u), in_f(row, k + 2u)); }
+fn out_u(row: u32, k: u32, value: u32) { table[control.batch.pairs * INPUTS + row * OUTPUTS + k] = value; }
+fn out_f(row: u32, k: u32, value: f32) { out_u(row, k, bitcast<u32>(value)); }
 fn out_2(row: u32, k: u32, value: vec2<f32>) { out_f(row, k, value.x); out_f(row, k + 1u, value.y); }
+fn out_v(row: u32, k: u32, value: vec3<f32>) { out_f(row, k, value.x); out_f(row, k + 1u, value.y); out_f(row, k + 2u, value.z); }
 @compute @workgroup_size(64)
 fn run_table(@builtin(global_invocation_id) global: vec3<u32>) { if global.x < control.batch.pairs { run_row(global.x); } }
 ";
@@ -34,7 +35,8 @@ impl Table<'_> {
     pub fn run(&self, body: &str, inputs: usize, outputs: usize, table: &[f32]) -> Vec<Vec<f32>> {
         let (gpu, work) = (self.gpu, self.work);
         let rows = table.len() / inputs;
-        let mut source = Source::kernels(work.job.scene.bvh.depth);
+        // One size of stack for all scenes: they share what is compiled.
+        let mut source = Source::kernels(u32::MAX);
         if let Some((from, to)) = self.change {
             assert!(source.text.contains(from), "the source no longer says {from}");
             source.text = source.text.replace(from, to);
