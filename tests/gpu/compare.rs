@@ -62,6 +62,11 @@ impl Worst {
         }
     }
 
+    /// Was nothing compared?
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
     /// Is every difference within the bound?
     pub fn holds(&self) -> bool {
         self.count > 0 && self.largest <= self.bound

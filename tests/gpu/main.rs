@@ -13,6 +13,9 @@ mod layout;
 mod load;
 mod table;
 mod twins;
+mod twins_bsdf;
+mod twins_rays;
+mod twins_scene;
 #[allow(dead_code, reason = "made for the ladder, of which this is a rung")]
 #[path = "../ladder/scenes.rs"]
 mod scenes;
