@@ -11,11 +11,13 @@ mod harness;
 mod images;
 mod layout;
 mod load;
+mod paths;
 mod table;
 mod twins;
 mod twins_bsdf;
 mod twins_rays;
 mod twins_scene;
+mod walks;
 #[allow(dead_code, reason = "made for the ladder, of which this is a rung")]
 #[path = "../ladder/scenes.rs"]
 mod scenes;
