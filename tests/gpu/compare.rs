@@ -41,7 +41,7 @@ impl Worst {
     pub fn within(&mut self, gpu: &[f32], cpu: &[f32], scale: f32) {
         assert_eq!(gpu.len(), cpu.len());
         self.count += 1;
-        self.differ += usize::from(gpu.iter().zip(cpu).any(|(a, b)| a.to_bits() != b.to_bits()));
+        self.differ += usize::from(gpu != cpu);
         for (a, b) in gpu.iter().zip(cpu) {
             // The same number (0 = −0, ∞ = ∞), or not.
             let error = if a == b { 0.0 } else { (a - b).abs() / (f32::EPSILON * scale) };
@@ -75,7 +75,7 @@ impl Worst {
     /// Says what was seen, and fails if it was too much.
     pub fn finish(&self) {
         let Self { name, bound, largest, count, differ, .. } = self;
-        println!("{name}: {count} inputs, {differ} not bit-equal, largest difference {largest:.2} of {bound} ε");
+        println!("{name}: {count} inputs, {differ} not the same, largest difference {largest:.2} of {bound} ε");
         assert!(self.holds(), "{name}: {largest} ε, {}", self.at);
     }
 }

@@ -102,7 +102,8 @@ fn struct_differences(module: &Module) -> Vec<String> {
         };
         let TypeInner::Struct { members, span } = &found.inner else { return Some(format!("{name} is no struct")) };
         let there: Vec<_> = members.iter().map(|m| (m.name.as_deref().unwrap_or_default(), m.offset as usize)).collect();
-        (there != fields || *span as usize != size).then(|| format!("{name}: {span} bytes {there:?} in WGSL, {size} bytes {fields:?} in Rust"))
+        (there != fields || *span as usize != size)
+            .then(|| format!("{name}: {span} bytes {there:?} in WGSL, {size} bytes {fields:?} in Rust"))
     };
     structs().into_iter().filter_map(differs).collect()
 }

@@ -124,7 +124,8 @@ fn with_tangents() -> Arc<Scene> {
 #[test]
 fn a_wrong_stride_is_noticed() {
     let Some(gpu) = gpu("a_wrong_stride_is_noticed") else { return };
-    for change in [("index * 6u", "index * 5u"), ("(index >> 1u) * 3u", "(index >> 1u) * 2u"), ("(index & 1u) == 1u", "(index & 2u) == 2u")] {
+    for change in [("index * 6u", "index * 5u"), ("(index >> 1u) * 3u", "(index >> 1u) * 2u"), ("(index & 1u) == 1u", "(index & 2u) == 2u")]
+    {
         let (_, wrong) = read_back(gpu, surface_scenes::textured(), Some(change));
         assert!(wrong > 0, "{change:?}");
     }

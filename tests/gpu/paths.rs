@@ -42,11 +42,17 @@ fn identical(gpu: &Gpu, scene: Arc<Scene>, max_edges: u32, change: Option<(&str,
 #[test]
 fn whole_subpaths_are_the_same() {
     let Some(gpu) = gpu("whole_subpaths_are_the_same") else { return };
-    let flat = [scenes::builtin("cornell"), scenes::patches(), scenes::furnace(1.0, 0.7), emitters_scenes::dirac_room(), surface_scenes::veils(true)];
+    let flat = [
+        scenes::builtin("cornell"),
+        scenes::patches(),
+        scenes::furnace(1.0, 0.7),
+        emitters_scenes::dirac_room(),
+        surface_scenes::veils(true),
+    ];
     for scene in flat {
         let name = scene.name.clone();
         let [light, eye] = identical(gpu, scene, 5, None);
-        println!("{name}: {:.2} % of light subpaths, {:.2} % of eye subpaths, 5 edges", 100.0 * light, 100.0 * eye);
+        println!("{name}: {:.3} % of light subpaths, {:.3} % of eye subpaths, 5 edges", 100.0 * light, 100.0 * eye);
         assert!(light >= 0.999 && eye >= 0.999, "{name}: {light} {eye}");
     }
     let others = [
@@ -65,7 +71,7 @@ fn whole_subpaths_are_the_same() {
     for scene in others {
         let name = scene.name.clone();
         let [light, eye] = identical(gpu, scene, 8, None);
-        println!("{name}: {:.2} % of light subpaths, {:.2} % of eye subpaths, 8 edges", 100.0 * light, 100.0 * eye);
+        println!("{name}: {:.3} % of light subpaths, {:.3} % of eye subpaths, 8 edges", 100.0 * light, 100.0 * eye);
         assert!(light >= 0.97 && eye >= 0.97, "{name}: {light} {eye}");
     }
 }
@@ -74,7 +80,8 @@ fn whole_subpaths_are_the_same() {
 #[test]
 fn another_block_of_random_numbers_is_noticed() {
     let Some(gpu) = gpu("another_block_of_random_numbers_is_noticed") else { return };
-    let [light, eye] = identical(gpu, scenes::builtin("cornell"), 5, Some(("BLOCK_LIGHT_VERTEX: u32 = 16u", "BLOCK_LIGHT_VERTEX: u32 = 17u")));
-    println!("{:.2} % of light subpaths, {:.2} % of eye subpaths", 100.0 * light, 100.0 * eye);
+    let [light, eye] =
+        identical(gpu, scenes::builtin("cornell"), 5, Some(("BLOCK_LIGHT_VERTEX: u32 = 16u", "BLOCK_LIGHT_VERTEX: u32 = 17u")));
+    println!("{:.3} % of light subpaths, {:.3} % of eye subpaths", 100.0 * light, 100.0 * eye);
     assert!(light < 0.9 && eye >= 0.999);
 }

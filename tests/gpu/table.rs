@@ -58,7 +58,8 @@ impl Table<'_> {
         let batch = Batch { pairs: rows as u32, row_step: 1, ..bytemuck::Zeroable::zeroed() };
         let buffer = |size: usize, bytes: &[u8], usage| {
             let usage = usage | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
-            let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor { label: None, size: size as u64, usage, mapped_at_creation: false });
+            let buffer =
+                gpu.device.create_buffer(&wgpu::BufferDescriptor { label: None, size: size as u64, usage, mapped_at_creation: false });
             gpu.queue.write_buffer(&buffer, 0, bytes);
             buffer
         };

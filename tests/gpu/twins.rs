@@ -16,8 +16,8 @@ use bdpt_explorer::engine::Job;
 use bdpt_explorer::film::quanta;
 use bdpt_explorer::gpu::Gpu;
 use bdpt_explorer::math::{
-    Frame, Vec2, Vec3, cube_root, direction_at, direction_between, geometry_term, offset_ray_origin, reflect, refract, sample_cosine_hemisphere,
-    sample_disk, sample_sphere, sample_triangle, sin_cos_turn, turn_of, versine,
+    Frame, Vec2, Vec3, cube_root, direction_at, direction_between, geometry_term, offset_ray_origin, reflect, refract,
+    sample_cosine_hemisphere, sample_disk, sample_sphere, sample_triangle, sin_cos_turn, turn_of, versine,
 };
 use bdpt_explorer::rng::{SampleId, pcg4d, unit_f32};
 
@@ -166,7 +166,8 @@ fn vectors_and_warps() {
         }
         inputs.push((u, a, b, s));
     }
-    let table: Vec<f32> = inputs.iter().flat_map(|(u, a, b, s)| [&u.to_array()[..], &a.to_array(), &b.to_array(), &[*s]].concat()).collect();
+    let table: Vec<f32> =
+        inputs.iter().flat_map(|(u, a, b, s)| [&u.to_array()[..], &a.to_array(), &b.to_array(), &[*s]].concat()).collect();
     let work = work(Settings::default());
     let run = |change| {
         let out = Table { gpu, work: &work, change }.run(MATH, 9, 42, &table);
@@ -186,7 +187,12 @@ fn vectors_and_warps() {
         all
     };
     run(None).iter().for_each(Worst::finish);
-    for change in [("-1.6666665e-1", "-1.6665e-1"), ("-3.333295e-1", "-3.3e-1"), ("1.0 / 3.0)", "1.0 / 2.9)"), ("sqrt(u.x);\n    return vec2<f32>(r * (1.0", "sqrt(u.x);\n    return vec2<f32>(r * (1.00001")] {
+    for change in [
+        ("-1.6666665e-1", "-1.6665e-1"),
+        ("-3.333295e-1", "-3.3e-1"),
+        ("1.0 / 3.0)", "1.0 / 2.9)"),
+        ("sqrt(u.x);\n    return vec2<f32>(r * (1.0", "sqrt(u.x);\n    return vec2<f32>(r * (1.00001"),
+    ] {
         assert!(run(Some(change)).iter().any(|worst| !worst.holds()), "{change:?} goes unnoticed");
     }
 }
@@ -282,7 +288,8 @@ fn weights(gpu: &Gpu, heuristic: Heuristic, range: f32, change: Option<(&str, &s
         let k = path.k as u32;
         let expected = strategies().row(k);
         let (found_row, mask) = (words(&found[1..4]), (1u128 << (k + 2)) - 1);
-        let found_row = found_row.iter().zip(0..).fold(0u128, |all, (&word, i)| if i < 3 { all | u128::from(word) << (32 * i) } else { all });
+        let found_row =
+            found_row.iter().zip(0..).fold(0u128, |all, (&word, i)| if i < 3 { all | u128::from(word) << (32 * i) } else { all });
         row.exact(&[(found_row & mask) as u32, ((found_row & mask) >> 32) as u32, ((found_row & mask) >> 64) as u32], &{
             let masked = expected & mask;
             [masked as u32, (masked >> 32) as u32, (masked >> 64) as u32]

@@ -54,9 +54,9 @@ fn textures() {
         let uv = (Vec2::new(u, v) - 0.5) * [1.0, 6.0, 50.0][i / 36 % 3];
         let texture = (i % 36) as u32;
         let value = textures.value(texture, uv);
-        let jumps = [-1.0, 1.0].iter().any(|x| [-1.0, 1.0].iter().any(|y| {
-            (textures.value(texture, uv + Vec2::new(*x, *y) * 1e-4) - value).abs().max_element() > 1e-2
-        }));
+        let jumps = [-1.0, 1.0].iter().any(|x| {
+            [-1.0, 1.0].iter().any(|y| (textures.value(texture, uv + Vec2::new(*x, *y) * 1e-4) - value).abs().max_element() > 1e-2)
+        });
         if !jumps {
             inputs.push((texture, uv));
         }
@@ -73,7 +73,9 @@ fn textures() {
         worst
     };
     run(None).finish();
-    for change in [("2.0 * n - 1.0 - place", "2.0 * n - place"), ("SRGB) != 0u", "SRGB) == 0u"), ("floor(place - 0.5)", "floor(place - 0.4)")] {
+    for change in
+        [("2.0 * n - 1.0 - place", "2.0 * n - place"), ("SRGB) != 0u", "SRGB) == 0u"), ("floor(place - 0.5)", "floor(place - 0.4)")]
+    {
         assert!(!run(Some(change)).holds(), "{change:?} goes unnoticed");
     }
 }
@@ -159,7 +161,13 @@ fn surface_points(gpu: &Gpu, scene: Arc<Scene>, change: Option<(&str, &str)>) ->
 #[test]
 fn points_on_surfaces() {
     let Some(gpu) = gpu("points_on_surfaces") else { return };
-    let scenes = [surface_scenes::textured(), surface_scenes::holes(), surface_scenes::veils(false), scenes::builtin("normal-map"), scenes::specular()];
+    let scenes = [
+        surface_scenes::textured(),
+        surface_scenes::holes(),
+        surface_scenes::veils(false),
+        scenes::builtin("normal-map"),
+        scenes::specular(),
+    ];
     for scene in scenes {
         println!("{}", scene.name);
         surface_points(gpu, scene, None).iter().for_each(Worst::finish);
@@ -225,7 +233,8 @@ fn light_from_infinity() {
         println!("{}", scene.name);
         environment(gpu, scene, None).iter().for_each(Worst::finish);
     }
-    for change in [("environment_rotation + 0.5", "environment_rotation + 0.501"), ("u.y >= cell.threshold", "u.y >= cell.threshold * 0.9")] {
+    for change in [("environment_rotation + 0.5", "environment_rotation + 0.501"), ("u.y >= cell.threshold", "u.y >= cell.threshold * 0.9")]
+    {
         assert!(environment(gpu, emitters_scenes::under_the_sky(), Some(change)).iter().any(|worst| !worst.holds()), "{change:?}");
     }
 }
@@ -294,7 +303,11 @@ fn lights() {
         all
     };
     run(None).iter().for_each(Worst::finish);
-    for change in [("return 0.25 * INV_PI", "return 0.26 * INV_PI"), ("return ramp * ramp", "return ramp"), ("inner + fall * (1.0 / 3.0)", "inner + fall * (1.0 / 3.1)")] {
+    for change in [
+        ("return 0.25 * INV_PI", "return 0.26 * INV_PI"),
+        ("return ramp * ramp", "return ramp"),
+        ("inner + fall * (1.0 / 3.0)", "inner + fall * (1.0 / 3.1)"),
+    ] {
         assert!(run(Some(change)).iter().any(|worst| !worst.holds()), "{change:?} goes unnoticed");
     }
 }
@@ -376,7 +389,11 @@ fn the_camera() {
         println!("{}", work.job.scene.name);
         run(None).iter().filter(|worst| !pinhole || !worst.is_empty()).for_each(Worst::finish);
         if !pinhole {
-            for change in [("sample_disk(u) * control.params.lens_radius", "sample_disk(u) * 0.69"), ("(1.0 - at.y) * 0.5", "(1.0 - at.y) * 0.501"), ("distance > 0.0)", "distance > 2.0)")] {
+            for change in [
+                ("sample_disk(u) * control.params.lens_radius", "sample_disk(u) * 0.69"),
+                ("(1.0 - at.y) * 0.5", "(1.0 - at.y) * 0.501"),
+                ("distance > 0.0)", "distance > 2.0)"),
+            ] {
                 assert!(run(Some(change)).iter().any(|worst| !worst.holds()), "{change:?} goes unnoticed");
             }
         }
