@@ -10,20 +10,8 @@ use bdpt_explorer::math::Vec3;
 fn smoke() {
     let Some(gpu) = gpu("smoke") else { return };
     println!("{:?}", gpu.info);
-    let mut list = vec![
-        scenes::builtin("cornell"),
-        scenes::builtin("cornell-spheres"),
-        scenes::patches(),
-        scenes::specular(),
-        scenes::tilted(),
-        scenes::lamp_in_glass(),
-    ];
-    list.extend([
-        emitters_scenes::wide_lens(),
-        emitters_scenes::dirac_room(),
-        emitters_scenes::under_the_sky(),
-        emitters_scenes::everything(),
-    ]);
+    let mut list = vec![scenes::builtin("cornell"), scenes::builtin("cornell-spheres"), scenes::patches(), scenes::specular(), scenes::tilted(), scenes::lamp_in_glass()];
+    list.extend([emitters_scenes::wide_lens(), emitters_scenes::dirac_room(), emitters_scenes::under_the_sky(), emitters_scenes::everything()]);
     list.extend(surface_scenes::all());
     for scene in list {
         let name = scene.name.clone();

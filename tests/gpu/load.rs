@@ -1,8 +1,7 @@
 //! Reading structs out of the tables: every field of every element of several scenes comes back as Rust has it.
 
-use crate::fields::store;
 use crate::harness::{Work, gpu};
-use crate::table::Table;
+use crate::table::{Table, store};
 use crate::{emitters_scenes, scenes, surface_scenes};
 use bdpt_explorer::engine::Job;
 use bdpt_explorer::gpu::Gpu;

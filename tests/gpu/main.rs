@@ -6,7 +6,6 @@ mod compare;
 #[allow(dead_code, reason = "made for the ladder, of which this is a rung")]
 #[path = "../ladder/emitters_scenes.rs"]
 mod emitters_scenes;
-mod fields;
 mod harness;
 mod images;
 mod layout;
@@ -28,6 +27,9 @@ mod surface_scenes;
 mod table;
 mod twins;
 mod twins_bsdf;
+mod twins_camera;
+mod twins_lights;
 mod twins_rays;
 mod twins_scene;
+mod twins_weights;
 mod walks;

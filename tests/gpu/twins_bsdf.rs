@@ -60,10 +60,10 @@ impl Bend {
             _ => Material::coat(color, roughness, if i % 12 < 6 { 0.0 } else { metallic }, ior),
         };
         let n_g = direction(3, i);
-        let n_s = if i / 6 % 2 == 0 { n_g } else { (n_g + direction(4, i) * (tilt * 0.7)).normalize() };
+        let n_s = if (i / 6).is_multiple_of(2) { n_g } else { (n_g + direction(4, i) * (tilt * 0.7)).normalize() };
         let w_in = direction(5, i);
         let mut w_out = direction(6, i);
-        if i % 3 > 0 {
+        if !i.is_multiple_of(3) {
             // Near the mirrored direction, where microfacets have their peak.
             w_out = (n_s * (2.0 * n_s.dot(w_in)) - w_in + w_out * (roughness * roughness)).normalize();
         }

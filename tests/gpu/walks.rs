@@ -1,8 +1,7 @@
 //! One kernel for steps and whole walks: rows begin at a given vertex, or at the start of a subpath.
 
-use crate::fields::{load, store};
 use crate::harness::Work;
-use crate::table::{Table, bits};
+use crate::table::{Table, bits, load, store};
 use bdpt_explorer::bdpt::walk::Step;
 use bdpt_explorer::bdpt::{End, Vertex};
 use bdpt_explorer::gpu::Gpu;
