@@ -1,13 +1,17 @@
 //! Reading structs out of the tables: every field of every element of several scenes comes back as Rust has it.
 
 use crate::harness::{Work, gpu};
+use crate::scenes::Room;
 use crate::table::{Table, store};
 use crate::{emitters_scenes, scenes, surface_scenes};
 use bdpt_explorer::engine::Job;
 use bdpt_explorer::gpu::Gpu;
-use bdpt_explorer::scene::Scene;
+use bdpt_explorer::math::{Vec2, Vec3};
+use bdpt_explorer::scene::parts::PartAttributes;
 use bdpt_explorer::scene::texture::linear_values;
+use bdpt_explorer::scene::{Material, Scene};
 use bytemuck::Pod;
+use glam::Vec4;
 use std::sync::Arc;
 
 /// An array of the tables: its struct, how WGSL reads element `row`, and Rust's words.
@@ -95,25 +99,34 @@ fn every_element_comes_back() {
     assert!(seen.iter().all(|&n| n > 1), "some array had no elements to read: {seen:?}");
 }
 
-/// The textured scene with tangents and a second set of texture coordinates, all different.
-fn with_tangents() -> Arc<Scene> {
-    use bdpt_explorer::math::{Vec2, Vec3};
-    use bdpt_explorer::scene::parts::PartAttributes;
-    let mut room = scenes::Room::new("tangents");
-    let white = room.material(bdpt_explorer::scene::Material::lambert(Vec3::splat(0.5)));
-    for i in 0..5u8 {
+/// Quads with two sets of texture coordinates, most of them with tangents, all different; textures that are turned and moved.
+pub fn with_tangents() -> Arc<Scene> {
+    let mut room = Room::new("tangents");
+    let byte = |x: u32, y: u32, k: u32| (60 + (x * 37 + y * 91 + k * 53) % 190) as u8;
+    let color = room.texture(6, true, |x, y| [byte(x, y, 1), byte(x, y, 2), byte(x, y, 3), byte(x, y, 4)]);
+    let bumps = room.texture(4, false, |x, y| [byte(x, y, 5), byte(x, y, 6), 240, 255]);
+    let parts = room.parts();
+    parts.textures[bumps as usize].set = 1;
+    parts.textures[bumps as usize].rows = [Vec3::new(0.8, -0.6, 0.1), Vec3::new(0.6, 0.8, -0.3)];
+    parts.textures[color as usize].rows = [Vec3::new(0.0, 1.2, 0.0), Vec3::new(-0.7, 0.0, 0.4)];
+    let rough = Material::coat(Vec3::splat(0.8), 0.6, 0.5, 1.5);
+    let white = Material { base_color_texture: color, normal_texture: bumps, metallic_roughness_texture: color, ..rough };
+    let white = room.material(white.finished());
+    for i in 0..6u8 {
         let x = f64::from(i);
         room.quad([x, 0.0, 0.0], [0.9, 0.0, 0.1], [0.0, 1.0, 0.2 * x], white);
     }
     room.camera([0.0, 0.0, 4.0], [1.0, 0.0, 0.0], 50.0);
     let parts = room.parts();
     for (i, triangle) in parts.triangles.iter_mut().enumerate() {
-        let at = |k: usize| (i * 7 + k) as f32 * 0.37;
-        let uvs = [0, 3].map(|first| Some([0, 1, 2].map(|k| Vec2::new(at(first + k), at(first + k) - 9.0))));
+        let at = |k: usize| ((i * 7 + k * 5) as f32 * 0.37).sin();
+        let uvs = [0, 3].map(|first| Some([0, 1, 2].map(|k| Vec2::new(at(first + k), at(first + k + 9)))));
         let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
-        let tangents = Some([1, 2, 3].map(|k| glam::Vec4::new(1.0, at(k), -at(k), sign)));
+        // The last ones take the axes of the texture coordinates instead.
+        let tangents = (i < 8).then(|| [1, 2, 3].map(|k| Vec4::new(1.0, at(k), -at(k), sign)));
         triangle.attributes = parts.attributes.len() as u32;
-        parts.attributes.push(PartAttributes { uvs, tangents, colors: Some([4, 5, 6].map(|k| glam::Vec4::splat(at(k)))) });
+        let colors = Some([4, 5, 6].map(|k| Vec4::splat(at(k).abs())));
+        parts.attributes.push(PartAttributes { uvs, tangents, colors });
         triangle.normals = Some([0.0, 0.1, 0.2].map(|tilt| Vec3::new(tilt, 0.1, 1.0).normalize()));
     }
     room.build()

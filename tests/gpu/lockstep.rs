@@ -227,17 +227,28 @@ fn compare(stepped: &Stepped, answer: &Answer, growth: f32, radius: f32, all: &m
     }
 }
 
-/// Steps, decisions that differ, those of them without a margin, and the numbers' differences.
-fn lockstep(gpu: &Gpu, scene: Arc<Scene>, change: Option<(&str, &str)>) -> ([usize; 4], [Worst; 7]) {
-    const SIDE: u32 = 32;
-    let work = Work::new(Job { size: [SIDE; 2], settings: Settings { max_edges: 8, seed: 11, ..Settings::default() }, ..Job::new(scene) });
-    let context = Context::new(&work.job.scene, &work.view, &work.job.settings);
+const SIDE: u32 = 32;
+
+fn work(scene: Arc<Scene>) -> Work {
+    let settings = Settings { max_edges: 8, seed: 11, ..Settings::default() };
+    Work::new(Job { size: [SIDE; 2], settings, ..Job::new(scene) })
+}
+
+fn all_steps(context: &Context) -> Vec<Stepped> {
     let mut list = Vec::new();
     for i in 0..SIDE * SIDE {
         let id = SampleId { x: i % SIDE, y: i / SIDE, sample: 2, seed: 11 };
-        steps(&context, Importance, id, 8, &mut list);
-        steps(&context, Radiance, id, 9, &mut list);
+        steps(context, Importance, id, 8, &mut list);
+        steps(context, Radiance, id, 9, &mut list);
     }
+    list
+}
+
+/// Steps, decisions that differ, those of them without a margin, and the numbers' differences.
+fn lockstep(gpu: &Gpu, scene: Arc<Scene>, change: Option<(&str, &str)>) -> ([usize; 4], [Worst; 7]) {
+    let work = work(scene);
+    let context = Context::new(&work.job.scene, &work.view, &work.job.settings);
+    let list = all_steps(&context);
     let rows: Vec<Row> = list.iter().map(|stepped| stepped.row).collect();
     let answers = ask(gpu, &work, &rows, change);
     let (mut seen, mut all) = ([list.len(), 0, 0, 0], bounds());
@@ -283,6 +294,24 @@ fn every_step_is_the_cpus() {
         all.iter().for_each(Worst::finish);
         assert_eq!(unexplained, 0, "{name}");
         assert!(differ * 1000 < count, "{name}: {differ} of {count}");
+    }
+}
+
+/// The margins excuse little: few of the CPU's steps are near to another decision.
+#[test]
+fn few_steps_are_near_to_another_decision() {
+    for scene in [scenes::builtin("cornell"), scenes::tilted(), surface_scenes::glossy_tilted(), surface_scenes::veils(true)] {
+        let work = work(scene);
+        let context = Context::new(&work.job.scene, &work.view, &work.job.settings);
+        let list = all_steps(&context);
+        let near = list.iter().filter(|stepped| !matches!(stepped.row.ask, Ask::Start) && stepped.is_marginal(&context)).count();
+        println!("{}: {near} of {} steps", work.job.scene.name, list.len());
+        assert!(near * 100 < list.len());
+        // But one that is near is seen.
+        let mut stepped = list.into_iter().find(|stepped| stepped.last == 1 && stepped.next.is_some()).unwrap();
+        let u = stepped.row.id.numbers(first_block(stepped.row.mode) + 2);
+        stepped.to = stepped.to.map(|v| Vertex { survival: u[3] + 0.5 * MARGIN, ..v });
+        assert!(stepped.is_marginal(&context));
     }
 }
 

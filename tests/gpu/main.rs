@@ -8,6 +8,7 @@ mod compare;
 mod emitters_scenes;
 mod harness;
 mod images;
+mod joins;
 mod layout;
 mod limits;
 mod load;

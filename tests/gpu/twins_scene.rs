@@ -3,6 +3,7 @@
 
 use crate::compare::{Worst, random};
 use crate::harness::{Work, gpu};
+use crate::load::with_tangents;
 use crate::table::{Table, bits};
 use crate::{scenes, surface_scenes};
 use bdpt_explorer::engine::Job;
@@ -160,13 +161,18 @@ fn points_on_surfaces() {
         surface_scenes::holes(),
         surface_scenes::veils(false),
         scenes::builtin("normal-map"),
+        with_tangents(),
         scenes::specular(),
     ];
     for scene in scenes {
         println!("{}", scene.name);
         surface_points(gpu, scene, None).iter().for_each(Worst::finish);
     }
-    for change in [("MIN_COS: f32 = 1e-3", "MIN_COS: f32 = 0.99"), ("look.roughness *= values[1].y", "look.roughness *= values[1].z")] {
+    for change in [
+        ("MIN_COS: f32 = 1e-3", "MIN_COS: f32 = 0.99"),
+        ("copysign(1.0, -det)", "copysign(1.0, det)"),
+        ("look.roughness *= values[1].y", "look.roughness *= values[1].z"),
+    ] {
         assert!(surface_points(gpu, surface_scenes::textured(), Some(change)).iter().any(|worst| !worst.holds()), "{change:?}");
     }
 }
