@@ -1,9 +1,9 @@
 //! One handle over both renderers: what to render, a session that renders it step by step, and a thread that does so for a
 //! window without ever blocking it.
 
+use crate::bdpt::PathRecord;
 use crate::bdpt::context::Context;
 use crate::bdpt::record::record as record_sample;
-use crate::bdpt::PathRecord;
 pub use crate::film::Rect as Crop;
 use crate::math::Vec2;
 use crate::scene::Ray;

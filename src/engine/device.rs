@@ -11,7 +11,7 @@ use std::sync::{Mutex, PoisonError};
 /// What the thread has ready.
 pub enum Prepared {
     /// A device and kernels that can render the scene.
-    Kernels(Gpu, Layouts, Kernels),
+    Kernels(Box<(Gpu, Layouts, Kernels)>),
     /// Kernels that render it faster.
     Faster(Kernels),
     /// Nothing will come.
@@ -44,7 +44,7 @@ pub fn prepare(scene: &Scene, software: bool) -> Receiver<Prepared> {
         match outcome {
             Err(error) => drop(sender.send(Prepared::Failed(error))),
             Ok((gpu, layouts, kernels, specialisation)) => {
-                drop(sender.send(Prepared::Kernels(gpu.clone(), layouts.clone(), kernels)));
+                drop(sender.send(Prepared::Kernels(Box::new((gpu.clone(), layouts.clone(), kernels)))));
                 if specialisation != fitting
                     && let Ok(kernels) = compile(&gpu, &layouts, deep, fitting)
                 {

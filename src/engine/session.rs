@@ -164,7 +164,8 @@ impl Session {
                     renderer.swap_kernels(kernels);
                 }
             }
-            Ok(Prepared::Kernels(gpu, layouts, kernels)) => {
+            Ok(Prepared::Kernels(ready)) => {
+                let (gpu, layouts, kernels) = *ready;
                 let slice = if self.for_window { WINDOW_SLICES[usize::from(gpu.is_software())] } else { HEADLESS_SLICE };
                 match self.renderer(&gpu, (layouts, kernels), slice) {
                     Ok(renderer) => self.worker = Worker::Gpu(Box::new(renderer)),

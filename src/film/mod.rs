@@ -236,6 +236,15 @@ impl Row<'_> {
     }
 }
 
+/// `value` in quanta, rounded stochastically by `u`; at most 2⁶³.
+#[inline]
+pub fn quanta(value: f32, u: f32, quantum: f32) -> u64 {
+    let quanta = value / quantum;
+    // Above 2²⁴ an f32 has no fraction left to round.
+    let whole = quanta.floor();
+    (whole as u64 + u64::from(u < quanta - whole)).min(MAX_QUANTA)
+}
+
 impl Splats<'_> {
     /// Adds to a pixel of a splat layer; `u` rounds each channel stochastically. False if the value was too large to count.
     #[inline]
@@ -243,10 +252,7 @@ impl Splats<'_> {
         let at = ((y as usize * self.size[0] as usize + x as usize) * self.layers + layer) * 3;
         let mut fits = true;
         for (c, value) in value.to_array().into_iter().enumerate() {
-            let quanta = value / self.quantum;
-            // Above 2²⁴ an f32 has no fraction left to round.
-            let whole = quanta.floor();
-            let rounded = (whole as u64 + u64::from(u[c] < quanta - whole)).min(MAX_QUANTA);
+            let rounded = quanta(value, u[c], self.quantum);
             if rounded > 0 {
                 let before = self.cells[at + c].fetch_add(rounded, Ordering::Relaxed);
                 if before >= MAX_QUANTA - rounded {

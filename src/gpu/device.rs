@@ -63,11 +63,8 @@ impl Gpu {
         if !software && info.device_type == wgpu::DeviceType::Cpu {
             return Err(GpuError::SoftwareOnly(info.name));
         }
-        let descriptor = wgpu::DeviceDescriptor {
-            label: Some("renderer"),
-            required_limits: wanted(&limits),
-            ..wgpu::DeviceDescriptor::default()
-        };
+        let descriptor =
+            wgpu::DeviceDescriptor { label: Some("renderer"), required_limits: wanted(&limits), ..wgpu::DeviceDescriptor::default() };
         let (device, queue) = adapter.request_device(&descriptor).await.map_err(|error| GpuError::NoDevice(error.to_string()))?;
         let mishaps = Arc::new(Mishaps::default());
         let on_lost = Arc::clone(&mishaps);
@@ -149,7 +146,10 @@ pub fn check(info: &wgpu::AdapterInfo, limits: &wgpu::Limits, flags: wgpu::Downl
         return fail("compute shaders".to_owned());
     }
     if limits.max_storage_buffers_per_shader_stage < STORAGE_BUFFERS {
-        return fail(format!("storage buffers: it has {} per kernel, {STORAGE_BUFFERS} are needed", limits.max_storage_buffers_per_shader_stage));
+        return fail(format!(
+            "storage buffers: it has {} per kernel, {STORAGE_BUFFERS} are needed",
+            limits.max_storage_buffers_per_shader_stage
+        ));
     }
     if limits.max_compute_invocations_per_workgroup < 64 {
         return fail(format!("workgroups of 64 invocations: it has {}", limits.max_compute_invocations_per_workgroup));

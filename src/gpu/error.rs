@@ -56,7 +56,9 @@ impl fmt::Display for GpuError {
             Self::OutOfMemory(what) => write!(f, "the graphics adapter has no memory left for {what}"),
             Self::Lost(why) => write!(f, "the graphics device was lost ({why})"),
             Self::WrongResult(what) => write!(f, "the graphics adapter computed wrongly: {what}"),
-            Self::Refused(message) => write!(f, "the graphics interface refused a call: {}", message.split_whitespace().collect::<Vec<_>>().join(" ")),
+            Self::Refused(message) => {
+                write!(f, "the graphics interface refused a call: {}", message.split_whitespace().collect::<Vec<_>>().join(" "))
+            }
         }
     }
 }

@@ -54,7 +54,11 @@ impl Layouts {
         let entry = |binding: u32, read_only: bool, has_dynamic_offset: bool| wgpu::BindGroupLayoutEntry {
             binding,
             visibility: wgpu::ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Buffer { ty: wgpu::BufferBindingType::Storage { read_only }, has_dynamic_offset, min_binding_size: None },
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only },
+                has_dynamic_offset,
+                min_binding_size: None,
+            },
             count: None,
         };
         let (control, read, write) = (entry(0, true, true), |binding| entry(binding, true, false), |binding| entry(binding, false, false));

@@ -130,7 +130,8 @@ impl Renderer {
         };
         let made = gpu
             .guarded("the film", || {
-                let per_tile = |label, bytes| list.iter().map(|&(_, rows)| buffer(label, tile_bytes(bytes, rows), storage)).collect::<Vec<_>>();
+                let per_tile =
+                    |label, bytes| list.iter().map(|&(_, rows)| buffer(label, tile_bytes(bytes, rows), storage)).collect::<Vec<_>>();
                 (
                     [per_tile("pixel layers", tiles.pixel_bytes), per_tile("splat layers", tiles.splat_bytes)],
                     [
@@ -435,7 +436,8 @@ impl Entries<'_> {
             let entries: Vec<_> = buffers
                 .iter()
                 .map(|(binding, buffer)| {
-                    let size = if *binding == 0 && buffer == self.control { std::num::NonZero::new(size_of::<Control>() as u64) } else { None };
+                    let size =
+                        if *binding == 0 && buffer == self.control { std::num::NonZero::new(size_of::<Control>() as u64) } else { None };
                     let resource = wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size });
                     wgpu::BindGroupEntry { binding: *binding, resource }
                 })

@@ -4,8 +4,8 @@
 //! corners; each array begins at a multiple of 16 bytes.
 
 use super::{Gpu, GpuError};
-use crate::bdpt::render::Plan;
 use crate::bdpt::Strategy;
+use crate::bdpt::render::Plan;
 use crate::scene::texture::linear_values;
 use crate::scene::{NONE, Scene};
 use bytemuck::Pod;

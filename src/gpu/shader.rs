@@ -91,7 +91,8 @@ impl Source {
     /// # Errors
     /// The first message of the compiler, with the file and its line.
     pub async fn compile(&self, gpu: &Gpu) -> Result<wgpu::ShaderModule, GpuError> {
-        let descriptor = wgpu::ShaderModuleDescriptor { label: Some("kernels"), source: wgpu::ShaderSource::Wgsl(self.text.as_str().into()) };
+        let descriptor =
+            wgpu::ShaderModuleDescriptor { label: Some("kernels"), source: wgpu::ShaderSource::Wgsl(self.text.as_str().into()) };
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let module = gpu.device.create_shader_module(descriptor);
         let error = scope.pop().await;

@@ -64,7 +64,8 @@ impl Tiles {
             return Err(GpuError::TooLarge { what: "a single row of the film", need: largest, have: binding });
         }
         let rows = (binding / row).min(height);
-        let most = (binding.min(MOST_VERTEX_BYTES) / vertices).min((binding - super::HEADER) / (records - super::HEADER)).min(MOST_PAIRS / width);
+        let most =
+            (binding.min(MOST_VERTEX_BYTES) / vertices).min((binding - super::HEADER) / (records - super::HEADER)).min(MOST_PAIRS / width);
         Ok(Self { size: need.size, rows: rows as u32, batch_rows: most.clamp(1, rows) as u32, pixel_bytes, splat_bytes })
     }
 

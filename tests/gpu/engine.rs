@@ -49,7 +49,8 @@ fn a_lost_device_is_replaced_and_nothing_else_changes() {
     let lost = device_in_use().unwrap();
     lost.device.destroy();
     let replaced = |frame: &Frame| matches!(frame.stats.notice, Some(Notice::DeviceReplaced(_)));
-    let after = frame_where(&engine, "another device", |frame| replaced(frame) && on_gpu(frame) && frame.stats.spp > 2.0 * before.stats.spp);
+    let after =
+        frame_where(&engine, "another device", |frame| replaced(frame) && on_gpu(frame) && frame.stats.spp > 2.0 * before.stats.spp);
     // The same job goes on: generation, toggles, film; nothing begins anew.
     assert_eq!((after.generation, after.hidden, after.size), (before.generation, hidden, before.size));
     assert_eq!(after.stats.fallback, None);

@@ -51,7 +51,11 @@ fn the_same_seed_gives_the_same_picture() {
         Settings { roulette: false, heuristic: heuristic(HeuristicKind::Max, 2.0), ..plain },
         Settings { fresh_ends: false, heuristic: heuristic(HeuristicKind::Cutoff, 2.0), ..plain },
         Settings { heuristic: heuristic(HeuristicKind::Power, 1.3), max_edges: 8, ..plain },
-        Settings { heuristic: heuristic(HeuristicKind::Uniform, 2.0), strategies: StrategySet::where_(|x| (x.s + 2 * x.t) % 3 > 0), ..plain },
+        Settings {
+            heuristic: heuristic(HeuristicKind::Uniform, 2.0),
+            strategies: StrategySet::where_(|x| (x.s + 2 * x.t) % 3 > 0),
+            ..plain
+        },
     ];
     for (i, scene) in all_scenes().into_iter().enumerate() {
         // Every scene as it is, and in turn one of the other ways.
@@ -128,7 +132,10 @@ fn other_seeds_give_the_same_mean_in_every_layer() {
 fn pictures(work: &Work, film: &Film) -> Vec<Vec3> {
     let means = film.means();
     let layers = work.plan.strategies().filter_map(|x| work.plan.layer(x, true));
-    layers.flat_map(|layer| (0..(work.job.size[0] * work.job.size[1]) as usize).map(move |pixel| (layer, pixel))).map(|(layer, pixel)| layer.mean(&means, pixel)).collect()
+    layers
+        .flat_map(|layer| (0..(work.job.size[0] * work.job.size[1]) as usize).map(move |pixel| (layer, pixel)))
+        .map(|(layer, pixel)| layer.mean(&means, pixel))
+        .collect()
 }
 
 #[test]

@@ -1,22 +1,25 @@
 //! Runs a function of the kernels over a table: rows of numbers go in, rows of numbers come out.
 //!
-//! `film` holds both, as it is the one binding that takes any numbers; the other bindings are a real scene's.
+//! The film's binding holds both, here as words, so that bits survive; the other bindings are a real scene's.
 
 use crate::harness::Work;
 use bdpt_explorer::gpu::shader::Source;
 use bdpt_explorer::gpu::{Batch, Control, Gpu, Layouts, Params, SceneBuffers};
+use naga::{Handle, Module, ScalarKind, Type, TypeInner};
 use pollster::block_on;
+use std::sync::LazyLock;
 
 /// Helpers of a table's kernel; `inputs` and `outputs` are the numbers of a row.
 const HELPERS: &str = "
-fn in_f(row: u32, k: u32) -> f32 { return film[row * INPUTS + k]; }
-fn in_u(row: u32, k: u32) -> u32 { return bitcast<u32>(film[row * INPUTS + k]); }
-fn in_v(row: u32, k: u32) -> vec3<f32> { return vec3<f32>(in_f(row, k), in_f(row, k + 1u), in_f(row, k + 2u)); }
+@group(0) @binding(6) var<storage, read_write> table: array<u32>;
+fn in_u(row: u32, k: u32) -> u32 { return table[row * INPUTS + k]; }
+fn in_f(row: u32, k: u32) -> f32 { return bitcast<f32>(in_u(row, k)); }
 fn in_2(row: u32, k: u32) -> vec2<f32> { return vec2<f32>(in_f(row, k), in_f(row, k + 1u)); }
-fn out_f(row: u32, k: u32, value: f32) { film[control.batch.pairs * INPUTS + row * OUTPUTS + k] = value; }
-fn out_u(row: u32, k: u32, value: u32) { out_f(row, k, bitcast<f32>(value)); }
-fn out_v(row: u32, k: u32, value: vec3<f32>) { out_f(row, k, value.x); out_f(row, k + 1u, value.y); out_f(row, k + 2u, value.z); }
+fn in_v(row: u32, k: u32) -> vec3<f32> { return vec3<f32>(in_f(row, k), in_f(row, k + 1u), in_f(row, k + 2u)); }
+fn out_u(row: u32, k: u32, value: u32) { table[control.batch.pairs * INPUTS + row * OUTPUTS + k] = value; }
+fn out_f(row: u32, k: u32, value: f32) { out_u(row, k, bitcast<u32>(value)); }
 fn out_2(row: u32, k: u32, value: vec2<f32>) { out_f(row, k, value.x); out_f(row, k + 1u, value.y); }
+fn out_v(row: u32, k: u32, value: vec3<f32>) { out_f(row, k, value.x); out_f(row, k + 1u, value.y); out_f(row, k + 2u, value.z); }
 @compute @workgroup_size(64)
 fn run_table(@builtin(global_invocation_id) global: vec3<u32>) { if global.x < control.batch.pairs { run_row(global.x); } }
 ";
@@ -34,7 +37,8 @@ impl Table<'_> {
     pub fn run(&self, body: &str, inputs: usize, outputs: usize, table: &[f32]) -> Vec<Vec<f32>> {
         let (gpu, work) = (self.gpu, self.work);
         let rows = table.len() / inputs;
-        let mut source = Source::kernels(work.job.scene.bvh.depth);
+        // One size of stack for all scenes: they share what is compiled.
+        let mut source = Source::kernels(u32::MAX);
         if let Some((from, to)) = self.change {
             assert!(source.text.contains(from), "the source no longer says {from}");
             source.text = source.text.replace(from, to);
@@ -56,7 +60,8 @@ impl Table<'_> {
         let batch = Batch { pairs: rows as u32, row_step: 1, ..bytemuck::Zeroable::zeroed() };
         let buffer = |size: usize, bytes: &[u8], usage| {
             let usage = usage | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
-            let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor { label: None, size: size as u64, usage, mapped_at_creation: false });
+            let buffer =
+                gpu.device.create_buffer(&wgpu::BufferDescriptor { label: None, size: size as u64, usage, mapped_at_creation: false });
             gpu.queue.write_buffer(&buffer, 0, bytes);
             buffer
         };
@@ -94,4 +99,45 @@ impl Table<'_> {
 /// A word as a number that only carries its bits.
 pub fn bits(word: u32) -> f32 {
     f32::from_bits(word)
+}
+
+/// What the kernels declare.
+static MODULE: LazyLock<Module> = LazyLock::new(|| naga::front::wgsl::parse_str(&Source::kernels(1).text).unwrap());
+
+fn named(name: &str) -> Handle<Type> {
+    MODULE.types.iter().find(|(_, t)| t.name.as_deref() == Some(name)).unwrap_or_else(|| panic!("no struct {name}")).0
+}
+
+/// The scalars of a value: what to append to its name, its word, is it an f32.
+fn scalars(of: Handle<Type>, at: u32, path: &str, out: &mut Vec<(String, u32, bool)>) {
+    match &MODULE.types[of].inner {
+        TypeInner::Scalar(scalar) => out.push((path.to_owned(), at / 4, scalar.kind == ScalarKind::Float)),
+        TypeInner::Vector { size, scalar } => {
+            let one = |c: usize| (format!("{path}.{}", &"xyzw"[c..=c]), at / 4 + c as u32, scalar.kind == ScalarKind::Float);
+            out.extend((0..*size as usize).map(one));
+        }
+        TypeInner::Struct { members, .. } => {
+            for member in members {
+                scalars(member.ty, at + member.offset, &format!("{path}.{}", member.name.as_deref().unwrap_or_default()), out);
+            }
+        }
+        other => panic!("no scalars in {other:?}"),
+    }
+}
+
+/// Statements that write every field of `value`, a struct of this name, from word `at` of the outputs on.
+pub fn store(name: &str, value: &str, at: usize) -> String {
+    let mut list = Vec::new();
+    scalars(named(name), 0, value, &mut list);
+    list.iter().map(|(path, word, _)| format!("out_u(row, {}u, bitcast<u32>({path}));\n", at + *word as usize)).collect()
+}
+
+/// Statements that read every field of the variable `value`, a struct of this name, from word `at` of the inputs on.
+pub fn load(name: &str, value: &str, at: usize) -> String {
+    let mut list = Vec::new();
+    scalars(named(name), 0, value, &mut list);
+    let one = |(path, word, float): &(String, u32, bool)| {
+        format!("{path} = in_{}(row, {}u);\n", if *float { "f" } else { "u" }, at + *word as usize)
+    };
+    list.iter().map(one).collect()
 }
