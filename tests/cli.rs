@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used)]
 
+#[path = "common/skip.rs"]
+mod skip;
+
 use exr::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -15,8 +18,10 @@ fn program(folder: &Path) -> Command {
     command
 }
 
+/// Runs a line; whatever it does not say about it, on the CPU, which is the same everywhere.
 fn run(folder: &Path, line: &str) -> Output {
-    program(folder).args(line.split_whitespace()).output().unwrap()
+    let cpu: &[&str] = if line.starts_with("render") && !line.contains("--backend") { &["--backend", "cpu"] } else { &[] };
+    program(folder).args(line.split_whitespace()).args(cpu).output().unwrap()
 }
 
 /// Runs and expects success.
@@ -173,6 +178,37 @@ fn stats_have_the_agreed_keys() {
 }
 
 #[test]
+fn the_gpu_renders_the_same_picture_or_says_why_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let stats = |backend: &str| {
+        let line = format!("render cornell -o {backend}.exr --size 24x20 --max-edges 4 --spp 4 --backend {backend} --stats {backend}.json");
+        let output = succeed(folder.path(), &line);
+        let stats: serde_json::Value =
+            serde_json::from_slice(&std::fs::read(folder.path().join(format!("{backend}.json"))).unwrap()).unwrap();
+        (stats, String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    stats("cpu");
+    for backend in ["gpu", "auto"] {
+        let (stats, said) = stats(backend);
+        assert_eq!(stats["spp"].as_f64(), Some(4.0));
+        if stats["backend"] == "cpu" {
+            // No adapter, or for auto only one that runs on the processor: it is said, here and there.
+            let why = stats["fallback"].as_str().unwrap();
+            assert!(said.contains(&format!("note: {why} The CPU rendered.")), "{said}");
+            if backend == "gpu" {
+                assert!(!skip::required("BDPT_REQUIRE_GPU"), "{why}");
+                skip::skipped("the_gpu_renders_the_same_picture_or_says_why_not", why);
+            }
+        }
+        let (_, a) = channels(&folder.path().join("cpu.exr"));
+        let (_, b) = channels(&folder.path().join(format!("{backend}.exr")));
+        let pixels = || a.iter().flat_map(|(name, values)| values.iter().zip(&b[name]));
+        let close = pixels().filter(|(a, b)| (**a - **b).abs() <= 1e-4 * a.abs()).count();
+        assert!(close as f64 > 0.99 * pixels().count() as f64, "{backend}: {close} of {}", pixels().count());
+    }
+}
+
+#[test]
 fn a_crop_is_the_same_pixels() {
     let folder = tempfile::tempdir().unwrap();
     succeed(folder.path(), "render cornell -o full.exr --size 40x30 --spp 3");
@@ -190,7 +226,7 @@ fn a_crop_is_the_same_pixels() {
 fn the_number_of_threads_changes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     for threads in ["1", "2", "5"] {
-        let line = format!("render cornell -o {threads}.exr --size 48x40 --spp 4 --pyramid {threads}");
+        let line = format!("render cornell -o {threads}.exr --size 48x40 --spp 4 --backend cpu --pyramid {threads}");
         let output = program(folder.path()).args(line.split(' ')).env("RAYON_NUM_THREADS", threads).output().unwrap();
         assert!(output.status.success());
     }

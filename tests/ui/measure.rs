@@ -56,3 +56,46 @@ fn the_aperture_is_dragged() {
     times.sort();
     println!("a pass while dragging: median {:?}, worst {:?}; {pictures:.1} pictures per second", times[150], times[299]);
 }
+
+/// A measurement: a pass of the window with its drawing by an adapter, while the GPU renders (on a software adapter both share the
+/// processor), the aperture is dragged and the renderer changed now and then. `cargo test --test ui -- --ignored --nocapture beside`
+#[test]
+#[ignore = "a measurement"]
+fn the_window_beside_a_rendering_gpu() {
+    use bdpt_explorer::engine::Backend;
+    let start = Start { source: SceneSource::Ready(Arc::new(builtin::open("cornell").expect("a built-in scene opens"))), size: [512, 512] };
+    let mut window = Harness::builder()
+        .with_size(egui::vec2(1440.0, 900.0))
+        .allow_missing_glyphs()
+        .renderer(egui_kittest::wgpu::WgpuTestRenderer::new())
+        .build_eframe(|context| App::new(start, &context.egui_ctx, None));
+    window.state_mut().state_mut().prefs.backend = Backend::Gpu;
+    let end = Instant::now() + Duration::from_secs(300);
+    while window.state().live().frame().is_none_or(|frame| frame.stats.backend != "gpu") {
+        window.step();
+        assert!(Instant::now() < end, "the GPU does not render: {:?}", window.state().live().frame().map(|frame| frame.stats.clone()));
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let (mut passes, mut drawn) = (Vec::new(), Vec::new());
+    for i in 0..200u32 {
+        let state = window.state_mut().state_mut();
+        state.lens = Some(Lens { radius: 0.05 * (i as f32 * 0.02).sin().abs() + 1e-4, focus_distance: 1.0 });
+        if i % 50 == 25 {
+            state.prefs.backend = if i % 100 == 25 { Backend::Cpu } else { Backend::Gpu };
+        }
+        let pixel = [i * 2 + 20, i + 40];
+        state.selection.pixel = pixel;
+        let began = Instant::now();
+        window.step();
+        passes.push(began.elapsed());
+        assert_eq!(window.state().live().record(window.state().state()).expect("a record").pixel, pixel, "answered in the next pass");
+        window.render().expect("a picture of the window");
+        drawn.push(began.elapsed());
+        std::thread::sleep(Duration::from_millis(16).saturating_sub(drawn[i as usize]));
+    }
+    passes.sort();
+    drawn.sort();
+    println!("a pass: median {:?}, 95 % {:?}, worst {:?}", passes[100], passes[190], passes[199]);
+    println!("drawn and read back: median {:?}, 95 % {:?}, worst {:?}", drawn[100], drawn[190], drawn[199]);
+    println!("{:?}", window.state().live().frame().map(|frame| (frame.stats.backend.clone(), frame.stats.ms_per_dispatch)));
+}
