@@ -271,3 +271,45 @@ fn case_lost_while_painting() {
         assert!(why.contains("start again") && why.contains("graphics driver"), "{why}");
     }
 }
+
+/// A measurement: from one frame of the window to the next, drawing and showing included, while nothing, the CPU or the GPU renders
+/// cornell at 512². `DISPLAY=… cargo test --test window -- --ignored --nocapture measure_frames`
+#[test]
+#[ignore = "a measurement"]
+fn measure_frames() {
+    use bdpt_explorer::engine::Backend;
+    let phases = [(Backend::Cpu, false), (Backend::Cpu, true), (Backend::Gpu, false)];
+    let (mut phase, mut times, mut last) = (0, Vec::new(), None::<Instant>);
+    let folder = tempfile::tempdir().expect("a folder");
+    let every_pass: EveryPass<'_> = Box::new(|Pass { app, ctx, .. }| {
+        ctx.request_repaint();
+        let Some(&(backend, paused)) = phases.get(phase) else { return ctx.send_viewport_cmd(egui::ViewportCommand::Close) };
+        (app.state_mut().prefs.backend, app.state_mut().paused) = (backend, paused);
+        let generation = app.live().engine().map(|engine| engine.generation());
+        let frame = app.live().frame();
+        if !frame.is_some_and(|f| f.stats.backend == backend.name() && f.stats.spp > 0.2 && Some(f.generation) == generation) {
+            (times, last) = (Vec::new(), None);
+            return;
+        }
+        times.extend(last.map(|last| last.elapsed()));
+        last = Some(Instant::now());
+        if times.len() == 200 {
+            times.sort();
+            let stats = &app.live().frame().expect("a frame").stats;
+            println!(
+                "{backend:?}, paused: {paused}: a frame {:?}, 95 % {:?}, worst {:?}; {:.1} ms per dispatch",
+                times[100], times[190], times[199], stats.ms_per_dispatch
+            );
+            (phase, times, last) = (phase + 1, Vec::new(), None);
+        }
+    });
+    let hooks = Hooks {
+        event_loop: Some(Box::new(|builder| {
+            builder.with_any_thread(true);
+        })),
+        storage: Some(folder.path().join("preferences")),
+        every_pass: Some(every_pass),
+    };
+    let scene = Arc::new(bdpt_explorer::scene::builtin::open("cornell").expect("a built-in scene opens"));
+    open(Start { source: SceneSource::Ready(scene), size: [512, 512] }, hooks).expect("a window");
+}

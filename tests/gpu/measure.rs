@@ -46,7 +46,7 @@ fn multiply_adds_per_second(gpu: &Gpu) -> f64 {
     let text = format!(
         "@group(0) @binding(0) var<storage, read_write> sums: array<f32>;
         @compute @workgroup_size(256) fn probe(@builtin(global_invocation_id) g: vec3<u32>) {{
-            let x = sums[0]; let y = sums[1];
+            let x = vec4<f32>(sums[0]); let y = vec4<f32>(sums[1]);
             var a = vec4<f32>(f32(g.x)); var b = a + 1.0; var c = a + 2.0; var d = a + 3.0;
             for (var i = 0u; i < {ROUNDS}u; i++) {{ {chain} {chain} }}
             if dot(a + b + c + d, vec4<f32>(1.0)) == 0.5 {{ sums[2] = 1.0; }}
