@@ -14,7 +14,7 @@ use tokens::paths_in_tokens;
 const HOMES: &[(&str, &[&str])] = &[
     ("ab_glyph", &["report/"]),
     ("clap", &["cli/"]),
-    ("cpu_time", &["engine.rs"]),
+    ("cpu_time", &["engine/"]),
     ("ctrlc", &["cli/"]),
     ("eframe", &["ui/", "main.rs"]),
     ("egui", &["ui/", "main.rs"]),

@@ -31,6 +31,7 @@
 mod device;
 mod error;
 mod kernels;
+mod memory;
 mod params;
 mod renderer;
 mod scene;

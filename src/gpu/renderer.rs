@@ -1,12 +1,11 @@
 //! A rendering on the device: submits batches, a slice of time each, and folds what they sum up into a film.
 
-use super::kernels::{Kernels, Layouts, Specialisation};
-use super::params::{Batch, Control, Params, SplatRecord, Task};
+use super::kernels::{Kernels, Layouts};
+use super::memory::{MOST_BATCHES, Memory, STRIDE};
+use super::params::{Batch, Control, Params, Task};
 use super::scene::SceneBuffers;
-use super::shader::Source;
 use super::tiles::{FILM_BUDGET, Need, Tiles, rows_of};
 use super::{Gpu, GpuError, HEADER};
-use crate::bdpt::Vertex;
 use crate::bdpt::render::Counts;
 use crate::film::Film;
 use std::collections::VecDeque;
@@ -16,10 +15,6 @@ use web_time::Instant;
 
 /// Most passes that are summed on the device before they are folded into the film.
 pub const MOST_PASSES: u32 = 1024;
-/// Most batches in a submission.
-const MOST_BATCHES: usize = 256;
-/// Bytes from one batch's control to the next: a multiple of every adapter's alignment.
-const STRIDE: u64 = (size_of::<Control>() as u64).next_multiple_of(256);
 /// Pairs of the first batches, whose speed nobody knows yet.
 const FIRST_PAIRS: u32 = 8192;
 /// Invocations of a workgroup.
@@ -38,33 +33,14 @@ struct InFlight {
     index: wgpu::SubmissionIndex,
 }
 
-/// What the kernels are bound to.
-#[derive(Debug)]
-struct Bound {
-    /// Group 0 of the trace kernels, for each tile.
-    trace: Vec<wgpu::BindGroup>,
-    /// Group 0 of resolve.
-    resolve: wgpu::BindGroup,
-    /// Group 1 of resolve, for each tile.
-    splats: Vec<wgpu::BindGroup>,
-}
-
 /// A rendering on the device.
 #[derive(Debug)]
 pub struct Renderer {
     gpu: Gpu,
-    layouts: Layouts,
     kernels: Kernels,
-    bound: Bound,
+    memory: Memory,
     tiles: Tiles,
-    /// Pixel layers of each tile.
-    pixel_layers: Vec<wgpu::Buffer>,
-    /// Splat layers of each tile.
-    splat_layers: Vec<wgpu::Buffer>,
-    output: wgpu::Buffer,
     params: Params,
-    control: wgpu::Buffer,
-    staging: wgpu::Buffer,
     batches: Vec<(usize, Batch)>,
     runs: Runs,
     /// Pass and batch that come next.
@@ -76,7 +52,6 @@ pub struct Renderer {
     pairs_per_second: f64,
     seconds_per_batch: f64,
     slice: Duration,
-    bytes: u64,
 }
 
 /// Which kernels have anything to do.
@@ -88,17 +63,7 @@ struct Runs {
 }
 
 impl Renderer {
-    /// Uploads a task and compiles the kernels for any scene; one submission is to take about `slice`.
-    ///
-    /// # Errors
-    /// If something does not fit the device, or the source does not compile.
-    pub async fn new(gpu: &Gpu, task: &Task<'_>, source: &Source, quantum: f32, slice: Duration) -> Result<Self, GpuError> {
-        let layouts = Layouts::new(gpu);
-        let kernels = Kernels::compile(gpu, &layouts, source, Specialisation::GENERAL).await?;
-        Self::with_kernels(gpu, task, (layouts, kernels), quantum, slice).await
-    }
-
-    /// The same with kernels that are compiled already; they must fit the scene.
+    /// Uploads a task, to be rendered by kernels that fit its scene; one submission is to take about `slice`.
     ///
     /// # Errors
     /// If something does not fit the device.
@@ -117,37 +82,7 @@ impl Renderer {
         let scene = SceneBuffers::new(gpu, task.scene, plan, task.settings.max_edges).await?;
         let params = Params::new(task, &scene.places, quantum);
 
-        let pairs = u64::from(tiles.batch_rows) * u64::from(task.view.size[0]);
-        let vertex_bytes = pairs * need.light_vertices.max(1) * size_of::<Vertex>() as u64;
-        let record_bytes = HEADER + pairs * splats.max(1) * size_of::<SplatRecord>() as u64;
-        let list = tiles.list();
-        let tile_bytes = |per_pixel: u64, rows: u32| u64::from(tiles.pixels(rows)) * per_pixel;
-        let staging_bytes = HEADER + tile_bytes(tiles.pixel_bytes, tiles.rows).max(tile_bytes(tiles.splat_bytes, tiles.rows));
-        let storage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
-        let read = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
-        let buffer = |label, size, usage| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
-        };
-        let made = gpu
-            .guarded("the film", || {
-                let per_tile =
-                    |label, bytes| list.iter().map(|&(_, rows)| buffer(label, tile_bytes(bytes, rows), storage)).collect::<Vec<_>>();
-                (
-                    [per_tile("pixel layers", tiles.pixel_bytes), per_tile("splat layers", tiles.splat_bytes)],
-                    [
-                        buffer("light vertices", vertex_bytes, storage),
-                        buffer("output", record_bytes, storage),
-                        buffer("control", STRIDE * MOST_BATCHES as u64, storage),
-                        buffer("staging", staging_bytes, read),
-                    ],
-                )
-            })
-            .await?;
-        let ([pixel_layers, splat_layers], [vertices, output, control, staging]) = made;
-        let entries = Entries { scene: &scene, vertices: &vertices, output: &output, control: &control };
-        let bound = gpu.guarded("its bindings", || entries.bind(gpu, &layouts, &pixel_layers, &splat_layers)).await?;
-
-        let film: u64 = pixel_layers.iter().chain(&splat_layers).map(wgpu::Buffer::size).sum();
+        let memory = Memory::new(gpu, &layouts, &need, &tiles, &scene).await?;
         let runs = Runs {
             light: plan.light_vertices() > 0,
             eye: plan.strategies().any(|x| x.stays_in_pixel()),
@@ -156,18 +91,11 @@ impl Renderer {
         let batches = tiles.batches((FIRST_PAIRS / task.view.size[0]).max(1));
         Ok(Self {
             gpu: gpu.clone(),
-            layouts,
             kernels,
-            bound,
+            memory,
             rows: vec![0; task.view.size[1] as usize],
-            bytes: film + vertex_bytes + record_bytes + staging_bytes + scene.bytes,
             tiles,
-            pixel_layers,
-            splat_layers,
-            output,
             params,
-            control,
-            staging,
             batches,
             runs,
             pass: 0,
@@ -184,19 +112,9 @@ impl Renderer {
         &self.gpu
     }
 
-    /// The layouts and kernels, for another rendering.
-    pub fn kernels(&self) -> (Layouts, Kernels) {
-        (self.layouts.clone(), self.kernels.clone())
-    }
-
     /// Goes on with other kernels, which must fit the scene.
     pub fn swap_kernels(&mut self, kernels: Kernels) {
         self.kernels = kernels;
-    }
-
-    /// Bytes on the device.
-    pub fn bytes(&self) -> u64 {
-        self.bytes
     }
 
     /// Passes whose batches have all been submitted.
@@ -284,7 +202,7 @@ impl Renderer {
             let control = Control { batch: *batch, params: self.params };
             slot[..size_of::<Control>()].copy_from_slice(bytemuck::bytes_of(&control));
         }
-        self.gpu.queue.write_buffer(&self.control, 0, &bytes);
+        self.gpu.queue.write_buffer(&self.memory.control, 0, &bytes);
         let began = Instant::now();
         let index = self.gpu.queue.submit([encoder.finish()]);
         let done = Done::default();
@@ -299,12 +217,12 @@ impl Renderer {
     /// One batch: light walks, eye walks and connections, splats.
     fn encode(&self, encoder: &mut wgpu::CommandEncoder, tile: usize, batch: &Batch, controls: &mut Vec<Batch>) {
         let offset = |controls: &[Batch]| (controls.len() as u64 * STRIDE) as u32;
-        encoder.clear_buffer(&self.output, 0, Some(4));
+        encoder.clear_buffer(&self.memory.output, 0, Some(4));
         let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         let groups = batch.pairs.div_ceil(WORKGROUP);
         let mut own = offset(controls);
         controls.push(*batch);
-        compute.set_bind_group(0, &self.bound.trace[tile], &[own]);
+        compute.set_bind_group(0, &self.memory.bound.trace[tile], &[own]);
         if self.runs.light {
             compute.set_pipeline(&self.kernels.light);
             compute.dispatch_workgroups(groups, 1, 1);
@@ -321,8 +239,8 @@ impl Renderer {
                     own = offset(controls);
                     controls.push(Batch { tile_row: first, tile_rows: rows, tile_pixels: self.tiles.pixels(rows), ..*batch });
                 }
-                compute.set_bind_group(0, &self.bound.resolve, &[own]);
-                compute.set_bind_group(1, &self.bound.splats[target], &[]);
+                compute.set_bind_group(0, &self.memory.bound.resolve, &[own]);
+                compute.set_bind_group(1, &self.memory.bound.splats[target], &[]);
                 compute.dispatch_workgroups(groups, 1, 1);
             }
         }
@@ -369,7 +287,8 @@ impl Renderer {
     /// If the device is lost, or what it summed up is not to be trusted; the film is then as it was.
     pub async fn collect(&mut self, film: &mut Film) -> Result<Counts, GpuError> {
         self.finish().await?;
-        let header = self.read(&self.output, HEADER, true, |bytes| bytemuck::cast_slice::<u8, u32>(bytes).to_vec()).await?;
+        let header =
+            self.memory.take(&self.gpu, &self.memory.output, HEADER, |bytes| bytemuck::cast_slice::<u8, u32>(bytes).to_vec()).await?;
         let wide = |i: usize| u64::from(header[i]) | u64::from(header[i + 1]) << 32;
         if header[7] > 0 {
             return Err(GpuError::WrongResult("a ray needed a deeper stack than the hierarchy's depth"));
@@ -378,80 +297,20 @@ impl Renderer {
             return Err(GpuError::WrongResult("its driver ended a loop too early; choose fewer edges"));
         }
         for (tile, (first, rows)) in self.tiles.list().into_iter().enumerate() {
-            let (pixels, splats) = (&self.pixel_layers[tile], &self.splat_layers[tile]);
+            let (pixels, splats) = (&self.memory.pixel_layers[tile], &self.memory.splat_layers[tile]);
             if self.runs.eye {
-                self.read(pixels, pixels.size(), true, |bytes| film.absorb_pixels(first, rows, bytemuck::cast_slice(bytes))).await?;
+                self.memory
+                    .read(&self.gpu, pixels, pixels.size(), |bytes| film.absorb_pixels(first, rows, bytemuck::cast_slice(bytes)))
+                    .await?;
             }
             if self.runs.splats {
-                self.read(splats, splats.size(), true, |bytes| film.absorb_splats(first, rows, bytemuck::cast_slice(bytes))).await?;
+                self.memory
+                    .read(&self.gpu, splats, splats.size(), |bytes| film.absorb_splats(first, rows, bytemuck::cast_slice(bytes)))
+                    .await?;
             }
         }
         film.count_samples(&self.rows);
         self.rows.fill(0);
         Ok(Counts { rays_closest: wide(1), rays_shadow: wide(3), non_finite: header[5].into(), saturated: header[6].into() })
-    }
-
-    /// Reads the first `size` bytes of a buffer, and sets them to zero after if `clear`.
-    async fn read<T>(&self, buffer: &wgpu::Buffer, size: u64, clear: bool, look: impl FnOnce(&[u8]) -> T) -> Result<T, GpuError> {
-        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.copy_buffer_to_buffer(buffer, 0, &self.staging, 0, size);
-        if clear {
-            encoder.clear_buffer(buffer, 0, Some(size));
-        }
-        self.gpu.queue.submit([encoder.finish()]);
-        let mapped = Arc::new(Mutex::new(None));
-        let result = Arc::clone(&mapped);
-        self.staging.map_async(wgpu::MapMode::Read, 0..size, move |outcome| {
-            *result.lock().unwrap_or_else(PoisonError::into_inner) = Some(outcome);
-        });
-        // Another thread that polls the device may be the one that calls back, a little later.
-        let outcome = loop {
-            self.gpu.wait(None)?;
-            if let Some(outcome) = mapped.lock().unwrap_or_else(PoisonError::into_inner).take() {
-                break outcome;
-            }
-            std::thread::yield_now();
-        };
-        outcome.map_err(|error| GpuError::Refused(error.to_string()))?;
-        let view = self.staging.get_mapped_range(0..size).map_err(|error| GpuError::Refused(error.to_string()))?;
-        let seen = look(&view);
-        drop(view);
-        self.staging.unmap();
-        Ok(seen)
-    }
-}
-
-/// What is bound beside the film.
-struct Entries<'a> {
-    scene: &'a SceneBuffers,
-    vertices: &'a wgpu::Buffer,
-    output: &'a wgpu::Buffer,
-    control: &'a wgpu::Buffer,
-}
-
-impl Entries<'_> {
-    fn bind(&self, gpu: &Gpu, layouts: &Layouts, pixel_layers: &[wgpu::Buffer], splat_layers: &[wgpu::Buffer]) -> Bound {
-        let entry = |binding: u32, buffer: &wgpu::Buffer| (binding, buffer.clone());
-        let group = |layout, buffers: &[(u32, wgpu::Buffer)]| {
-            let entries: Vec<_> = buffers
-                .iter()
-                .map(|(binding, buffer)| {
-                    let size =
-                        if *binding == 0 && buffer == self.control { std::num::NonZero::new(size_of::<Control>() as u64) } else { None };
-                    let resource = wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size });
-                    wgpu::BindGroupEntry { binding: *binding, resource }
-                })
-                .collect();
-            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
-        };
-        let common = [entry(0, self.control), entry(7, self.output)];
-        let scene = self.scene.buffers.iter().zip(1..).map(|(buffer, binding)| entry(binding, buffer));
-        let traced: Vec<_> = common.iter().cloned().chain(scene).chain([entry(5, self.vertices)]).collect();
-        let trace = |film: &wgpu::Buffer| group(&layouts.trace, &[traced.clone(), vec![entry(6, film)]].concat());
-        Bound {
-            trace: pixel_layers.iter().map(trace).collect(),
-            resolve: group(&layouts.resolve, &[&common[..], &[entry(3, &self.scene.buffers[2])]].concat()),
-            splats: splat_layers.iter().map(|splats| group(&layouts.splats, &[entry(0, splats)])).collect(),
-        }
     }
 }

@@ -50,8 +50,6 @@ pub struct SceneBuffers {
     pub buffers: [wgpu::Buffer; 4],
     /// Where things are.
     pub places: Places,
-    /// Bytes of all of it.
-    pub bytes: u64,
 }
 
 impl SceneBuffers {
@@ -101,8 +99,7 @@ impl SceneBuffers {
             buffer
         };
         let buffers = gpu.guarded("the scene", || parts.each_ref().map(upload)).await?;
-        let bytes = buffers.iter().map(wgpu::Buffer::size).sum();
-        Ok(Self { buffers, places, bytes })
+        Ok(Self { buffers, places })
     }
 }
 
