@@ -300,12 +300,12 @@ impl Renderer {
             let (pixels, splats) = (&self.memory.pixel_layers[tile], &self.memory.splat_layers[tile]);
             if self.runs.eye {
                 self.memory
-                    .read(&self.gpu, pixels, pixels.size(), |bytes| film.absorb_pixels(first, rows, bytemuck::cast_slice(bytes)))
+                    .take(&self.gpu, pixels, pixels.size(), |bytes| film.absorb_pixels(first, rows, bytemuck::cast_slice(bytes)))
                     .await?;
             }
             if self.runs.splats {
                 self.memory
-                    .read(&self.gpu, splats, splats.size(), |bytes| film.absorb_splats(first, rows, bytemuck::cast_slice(bytes)))
+                    .take(&self.gpu, splats, splats.size(), |bytes| film.absorb_splats(first, rows, bytemuck::cast_slice(bytes)))
                     .await?;
             }
         }
