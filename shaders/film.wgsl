@@ -34,6 +34,7 @@ fn add_to_splats(layer: u32, place: u32, value: vec3<f32>, u: vec3<f32>) {
     if layer == NONE {
         return;
     }
+    var left_out = 0u;
     for (var c = 0u; c < 3u; c++) {
         let at = ((layer * 3u + c) * control.batch.tile_pixels + place) * 2u;
         let rounded = quanta(value[c], u[c]);
@@ -46,9 +47,12 @@ fn add_to_splats(layer: u32, place: u32, value: vec3<f32>, u: vec3<f32>) {
             if atomicAdd(&splats[at + 1u], high) >= MAX_HIGH - min(high, MAX_HIGH) {
                 // Too much for the counter: this splat is left out, all but its low word, and the caller told.
                 atomicSub(&splats[at + 1u], high);
-                atomicAdd(&output.saturated, 1u);
+                left_out = 1u;
             }
         }
+    }
+    if left_out == 1u {
+        atomicAdd(&output.saturated, 1u);
     }
 }
 

@@ -198,7 +198,7 @@ const AT_POINT: u32 = 64u;
 // bdpt/strategy.rs
 const MAX_VERTICES: u32 = 65u;
 
-// gpu/control.params.rs
+// gpu/params.rs
 struct Params {
     camera_position: vec3<f32>,
     lens_radius: f32,
@@ -270,9 +270,9 @@ struct Batch {
     row_step: u32,
     pairs: u32,
     tile_row: u32,
-    tile_rows: u32,
     tile_pixels: u32,
     _pad0: u32,
+    _pad1: u32,
 }
 
 struct Control {

@@ -194,7 +194,7 @@ fn the_gpu_renders_the_same_picture_or_says_why_not() {
         if stats["backend"] == "cpu" {
             // No adapter, or for auto only one that runs on the processor: it is said, here and there.
             let why = stats["fallback"].as_str().unwrap();
-            assert!(said.contains(&format!("note: {why} The CPU rendered.")), "{said}");
+            assert!(said.contains(&format!("note: {why} The CPU renders.")), "{said}");
             if backend == "gpu" {
                 assert!(!skip::required("BDPT_REQUIRE_GPU"), "{why}");
                 skip::skipped("the_gpu_renders_the_same_picture_or_says_why_not", why);

@@ -21,7 +21,7 @@ fn strategy_index(s: u32, t: u32) -> u32 {
     return (k - 1u) * (k + 4u) / 2u + s;
 }
 
-// The sample of a pair of this control.batch.
+// The sample of a pair of this batch.
 fn sample_of(pair: u32) -> SampleId {
     let row = pair / control.params.size.x;
     return SampleId(pair % control.params.size.x, control.batch.first_row + row * control.batch.row_step, control.batch.pass_number, control.params.seed);

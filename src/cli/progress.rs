@@ -40,20 +40,24 @@ pub fn run(session: &mut Session, limit: Limit) -> Result<bool, Failure> {
     loop {
         let (passes, elapsed) = (session.passes(), start.elapsed());
         show(&bar, session, limit, elapsed);
-        if limit.spp.is_some_and(|spp| passes >= spp) || limit.time.is_some_and(|time| passes >= 1 && elapsed >= time) {
-            break;
-        }
-        if INTERRUPTS.load(Relaxed) > 0 && passes >= 1 && session.pass_fraction() == 0.0 {
-            bar.abandon();
+        let done = limit.spp.is_some_and(|spp| passes >= spp) || limit.time.is_some_and(|time| passes >= 1 && elapsed >= time);
+        let interrupted = INTERRUPTS.load(Relaxed) > 0 && passes >= 1 && session.pass_fraction() == 0.0;
+        if done || interrupted {
             session.collect();
-            return Ok(true);
+            // What a GPU could not hand over is rendered again.
+            if session.passes() < passes {
+                continue;
+            }
+            if done {
+                bar.finish_and_clear();
+            } else {
+                bar.abandon();
+            }
+            return Ok(!done);
         }
         let left = limit.time.map_or(Duration::MAX, |time| time.saturating_sub(elapsed));
         session.step(left.min(Duration::from_millis(100)));
     }
-    session.collect();
-    bar.finish_and_clear();
-    Ok(false)
 }
 
 /// Loads something with a line about how far it is; it shows only on a terminal, and only where loading takes a while.

@@ -200,7 +200,7 @@ impl Rendering {
     fn report(&self, files: &[PathBuf], interrupted: bool) {
         let (stats, passes) = (self.session.stats(), self.session.passes());
         if let Some(why) = &stats.fallback {
-            eprintln!("note: {why} The CPU rendered.");
+            eprintln!("note: {why} The CPU renders.");
         }
         if let Some(Notice::DeviceReplaced(why)) = &stats.notice {
             eprintln!("note: {why}; another was opened, and nothing is missing");

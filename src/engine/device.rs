@@ -27,6 +27,8 @@ struct Shared {
 }
 
 static SHARED: Mutex<Option<Shared>> = Mutex::new(None);
+/// Kernels are compiled by one thread at a time: whoever waited finds them ready.
+static COMPILING: Mutex<()> = Mutex::new(());
 
 /// The device that renders, if one does: for diagnostics, and for tests that take it away.
 pub fn device_in_use() -> Option<Gpu> {
@@ -56,7 +58,7 @@ pub fn prepare(scene: &Scene, software: bool) -> Receiver<Prepared> {
     // A page has no threads to spare yet.
     if cfg!(target_arch = "wasm32") || std::thread::Builder::new().name("kernels".to_owned()).spawn(work).is_err() {
         let (sender, receiver) = channel();
-        drop(sender.send(Prepared::Failed(GpuError::NoAdapter("no thread to compile kernels on".to_owned()))));
+        drop(sender.send(Prepared::Failed(GpuError::NoThread)));
         return receiver;
     }
     receiver
@@ -85,6 +87,13 @@ fn get(software: bool, deep: bool, fitting: Specialisation) -> Result<(Gpu, Layo
 
 /// Compiles kernels and keeps them for whoever comes next.
 fn compile(gpu: &Gpu, layouts: &Layouts, deep: bool, which: Specialisation) -> Result<Kernels, GpuError> {
+    let _turn = COMPILING.lock().unwrap_or_else(PoisonError::into_inner);
+    let ready = |shared: &Shared| shared.kernels.iter().find(|(key, _)| *key == (deep, which)).map(|(_, kernels)| kernels.clone());
+    let shared = SHARED.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(kernels) = shared.as_ref().filter(|shared| shared.gpu.is(gpu)).and_then(ready) {
+        return Ok(kernels);
+    }
+    drop(shared);
     let source = Source::kernels(if deep { bvh::STACK_SIZE as u32 } else { bvh::SMALL_STACK });
     let kernels = block_on(Kernels::compile(gpu, layouts, &source, which))?;
     let mut shared = SHARED.lock().unwrap_or_else(PoisonError::into_inner);

@@ -15,7 +15,7 @@ use crate::gpu::{GpuError, Kernels, Layouts, Renderer, Task};
 use crate::math::Vec3;
 use crate::scene::View;
 use pollster::block_on;
-use std::sync::mpsc::{Receiver, RecvTimeoutError};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
 use std::time::Duration;
 use web_time::Instant;
 
@@ -100,7 +100,7 @@ impl Session {
 
     /// Waits until it is decided who renders; before the first pass, so that all passes are rendered by the same.
     pub fn wait_for_renderer(&mut self) {
-        while self.preparing.is_some() && matches!(self.worker, Worker::Cpu(_)) {
+        while self.preparing.is_some() && matches!(self.worker, Worker::Cpu(_)) && self.pass_fraction() == 0.0 {
             self.look_at_preparations(Duration::from_secs(1));
         }
     }
@@ -127,7 +127,7 @@ impl Session {
                 if let Err(error) = stepped {
                     self.gpu_failed(&error);
                 } else if full {
-                    self.collect();
+                    self.bring_in();
                 }
             }
         }
@@ -137,6 +137,13 @@ impl Session {
 
     /// Brings everything rendered so far into the film: before someone looks at it.
     pub fn collect(&mut self) {
+        let (start, cpu) = (Instant::now(), cpu_time());
+        self.bring_in();
+        self.elapsed += start.elapsed();
+        self.cpu += cpu_time().saturating_sub(cpu);
+    }
+
+    fn bring_in(&mut self) {
         let Worker::Gpu(renderer) = &mut self.worker else { return };
         match block_on(renderer.collect(&mut self.film)) {
             Ok(counts) => self.counts = self.counts.plus(counts),
@@ -145,19 +152,24 @@ impl Session {
     }
 
     /// Takes what is ready; `patience`: how long to wait for it.
-    fn look_at_preparations(&mut self, patience: Duration) {
+    pub(super) fn look_at_preparations(&mut self, patience: Duration) {
         let Some(preparing) = &self.preparing else { return };
         let between_passes = self.pass_fraction() == 0.0;
         if matches!(self.worker, Worker::Cpu(_)) && !between_passes {
             return;
         }
-        match preparing.recv_timeout(patience) {
-            Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => self.preparing = None,
-            Ok(Prepared::Failed(error)) => {
-                self.preparing = None;
-                self.fallback = Some(sentence(&error));
-            }
+        // A page has no clock to wait by, and need not wait.
+        let ready = match preparing.try_recv() {
+            Err(TryRecvError::Empty) if !patience.is_zero() => preparing.recv_timeout(patience).map_err(|error| match error {
+                RecvTimeoutError::Timeout => TryRecvError::Empty,
+                RecvTimeoutError::Disconnected => TryRecvError::Disconnected,
+            }),
+            ready => ready,
+        };
+        match ready {
+            Err(TryRecvError::Empty) => {}
+            Err(TryRecvError::Disconnected) => self.preparing = None,
+            Ok(Prepared::Failed(error)) => self.gpu_failed(&error),
             Ok(Prepared::Faster(kernels)) => {
                 self.preparing = None;
                 if let Worker::Gpu(renderer) = &mut self.worker {
@@ -199,7 +211,7 @@ impl Session {
                 return;
             }
         }
-        self.preparing = None;
+        (self.preparing, self.notice) = (None, None);
         self.fallback = Some(sentence(error));
     }
 

@@ -192,6 +192,8 @@ impl Worker {
         // It was checked when it was sent.
         if let Ok(session) = Session::for_window(job) {
             (self.session, self.generation) = (session, generation);
+            // Kernels that are compiled already come at once: then the first picture need not be the CPU's.
+            self.session.look_at_preparations(SLICE);
             self.session.step(SLICE);
         }
     }

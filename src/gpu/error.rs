@@ -20,6 +20,8 @@ pub enum GpuError {
     NoDevice(String),
     /// A shader does not compile: where and why.
     Shader(String),
+    /// There is no thread to compile kernels on.
+    NoThread,
     /// Something needs more than the device allows or has.
     TooLarge {
         /// What.
@@ -49,6 +51,7 @@ impl fmt::Display for GpuError {
             }
             Self::NoDevice(why) => write!(f, "the graphics adapter gives no device: {why}"),
             Self::Shader(message) => write!(f, "a shader does not compile: {message}"),
+            Self::NoThread => write!(f, "there is no thread to compile its kernels on"),
             Self::TooLarge { what, need, have } => {
                 let mib = |bytes: &u64| bytes.div_ceil(1 << 20);
                 write!(f, "{what} would take {} MiB of graphics memory, {} MiB are allowed", mib(need), have >> 20)

@@ -51,7 +51,7 @@ impl Memory {
         let record_bytes = HEADER + pairs * need.splats.max(1) * size_of::<SplatRecord>() as u64;
         let list = tiles.list();
         let tile_bytes = |per_pixel: u64, rows: u32| u64::from(tiles.pixels(rows)) * per_pixel;
-        let staging_bytes = HEADER + tile_bytes(tiles.pixel_bytes, tiles.rows).max(tile_bytes(tiles.splat_bytes, tiles.rows));
+        let staging_bytes = HEADER.max(tile_bytes(tiles.pixel_bytes.max(tiles.splat_bytes), tiles.rows));
         let storage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
         let read = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
         let buffer = |label, size, usage| {

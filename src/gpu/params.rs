@@ -144,12 +144,12 @@ shared_struct! {
         pub pairs: u32,
         /// The tile's first row (when splats are added: of the tile they are added to).
         pub tile_row: u32,
-        /// Its rows.
-        pub tile_rows: u32,
         /// Its pixels.
         pub tile_pixels: u32,
         /// Padding.
         pub _pad0: u32,
+        /// Padding.
+        pub _pad1: u32,
     }
 }
 

@@ -237,7 +237,7 @@ impl Renderer {
             for (target, &(first, rows)) in tiles.iter().enumerate() {
                 if tiles.len() > 1 {
                     own = offset(controls);
-                    controls.push(Batch { tile_row: first, tile_rows: rows, tile_pixels: self.tiles.pixels(rows), ..*batch });
+                    controls.push(Batch { tile_row: first, tile_pixels: self.tiles.pixels(rows), ..*batch });
                 }
                 compute.set_bind_group(0, &self.memory.bound.resolve, &[own]);
                 compute.set_bind_group(1, &self.memory.bound.splats[target], &[]);
@@ -296,19 +296,17 @@ impl Renderer {
         if header[8] > 0 {
             return Err(GpuError::WrongResult("its driver ended a loop too early; choose fewer edges"));
         }
-        for (tile, (first, rows)) in self.tiles.list().into_iter().enumerate() {
-            let (pixels, splats) = (&self.memory.pixel_layers[tile], &self.memory.splat_layers[tile]);
-            if self.runs.eye {
-                self.memory
-                    .take(&self.gpu, pixels, pixels.size(), |bytes| film.absorb_pixels(first, rows, bytemuck::cast_slice(bytes)))
-                    .await?;
-            }
-            if self.runs.splats {
-                self.memory
-                    .take(&self.gpu, splats, splats.size(), |bytes| film.absorb_splats(first, rows, bytemuck::cast_slice(bytes)))
-                    .await?;
-            }
+        // Everything is fetched before anything is added: a device may be lost between two buffers.
+        let (mut pixels, mut splats): (Vec<Vec<f32>>, Vec<Vec<u32>>) = Default::default();
+        for buffer in self.memory.pixel_layers.iter().filter(|_| self.runs.eye) {
+            pixels.push(self.memory.take(&self.gpu, buffer, buffer.size(), |bytes| bytemuck::cast_slice(bytes).to_vec()).await?);
         }
+        for buffer in self.memory.splat_layers.iter().filter(|_| self.runs.splats) {
+            splats.push(self.memory.take(&self.gpu, buffer, buffer.size(), |bytes| bytemuck::cast_slice(bytes).to_vec()).await?);
+        }
+        let tiles = self.tiles.list();
+        tiles.iter().zip(&pixels).for_each(|(&(first, rows), sums)| film.absorb_pixels(first, rows, sums));
+        tiles.iter().zip(&splats).for_each(|(&(first, rows), words)| film.absorb_splats(first, rows, words));
         film.count_samples(&self.rows);
         self.rows.fill(0);
         Ok(Counts { rays_closest: wide(1), rays_shadow: wide(3), non_finite: header[5].into(), saturated: header[6].into() })

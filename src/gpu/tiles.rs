@@ -61,7 +61,8 @@ impl Tiles {
         let row = width * pixel_bytes.max(splat_bytes);
         let largest = row.max(vertices).max(records);
         if largest > binding {
-            return Err(GpuError::TooLarge { what: "a single row of the film", need: largest, have: binding });
+            let what = if largest == row { "a single row of the film" } else { "the light subpaths of a single row" };
+            return Err(GpuError::TooLarge { what, need: largest, have: binding });
         }
         let rows = (binding / row).min(height);
         let most =
@@ -92,9 +93,9 @@ impl Tiles {
                     row_step: step,
                     pairs: (count - phase).div_ceil(step) * self.size[0],
                     tile_row: first,
-                    tile_rows: count,
                     tile_pixels: self.pixels(count),
                     _pad0: 0,
+                    _pad1: 0,
                 };
                 (tile, batch)
             })

@@ -106,6 +106,32 @@ fn the_cpu_begins_and_the_gpu_goes_on() {
 }
 
 #[test]
+fn what_a_lost_device_owed_is_rendered_again() {
+    let Some(_) = gpu("what_a_lost_device_owed_is_rendered_again") else { return };
+    let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut session = Session::new(job(Backend::Gpu)).unwrap();
+    session.set_limit(3);
+    session.wait_for_renderer();
+    while session.passes() < 3 {
+        session.step(Duration::from_secs(1));
+    }
+    device_in_use().unwrap().device.destroy();
+    session.collect();
+    assert_eq!((session.passes(), session.stats().spp), (0, 0.0), "nothing of the lost passes is in the film");
+    while session.passes() < 3 {
+        session.step(Duration::from_secs(1));
+    }
+    session.collect();
+    let mut alone = Session::new(job(Backend::Cpu)).unwrap();
+    while alone.passes() < 3 {
+        alone.step(Duration::from_secs(1));
+    }
+    let (a, b) = (session.image(), alone.image());
+    let close = a.iter().zip(&b).filter(|(a, b)| (**a - **b).abs().max_element() <= 1e-4 * b.max_element()).count();
+    assert!(session.stats().spp == 3.0 && close as f64 >= 0.99 * a.len() as f64, "{close} of {}", a.len());
+}
+
+#[test]
 fn switching_the_backend_restarts_on_the_other() {
     let Some(gpu) = gpu("switching_the_backend_restarts_on_the_other") else { return };
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
@@ -138,6 +164,7 @@ fn adapters_that_cannot_are_refused_in_one_sentence() {
     let errors = [
         GpuError::NoAdapter("none".into()),
         GpuError::NoDevice("x".into()),
+        GpuError::NoThread,
         GpuError::OutOfMemory("the film"),
         GpuError::TooLarge { what: "the film", need: 1 << 31, have: 1 << 30 },
         GpuError::Lost("destroyed".into()),
