@@ -137,6 +137,6 @@ mod tests {
     fn what_does_not_fit_is_said() {
         let error = |binding, budget| Tiles::new(&NEED, binding, budget).unwrap_err().to_string();
         assert_eq!(error(128 << 20, 64 << 20), "the film with its layers would take 105 MiB of graphics memory, 64 MiB are allowed");
-        assert!(error(100_000, 1 << 30).starts_with("a single row of the film"));
+        assert!(error(100_000, 1 << 30).starts_with("the light subpaths of a single row"));
     }
 }
