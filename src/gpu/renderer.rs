@@ -15,8 +15,8 @@ use web_time::Instant;
 
 /// Most passes that are summed on the device before they are folded into the film.
 pub const MOST_PASSES: u32 = 1024;
-/// Pairs of the first batches, whose speed nobody knows yet.
-const FIRST_PAIRS: u32 = 8192;
+/// Pairs of the first pass's batches, whose speed nobody knows yet: on a graphics adapter, and on one that runs on the processor.
+const FIRST_PAIRS: [u32; 2] = [8192, 1024];
 /// Invocations of a workgroup.
 const WORKGROUP: u32 = 64;
 
@@ -88,7 +88,7 @@ impl Renderer {
             eye: plan.strategies().any(|x| x.stays_in_pixel()),
             splats: splats > 0 && !task.scene.lights.list.is_empty(),
         };
-        let batches = tiles.batches((FIRST_PAIRS / task.view.size[0]).max(1));
+        let batches = tiles.batches((FIRST_PAIRS[usize::from(gpu.is_software())] / task.view.size[0]).max(1));
         Ok(Self {
             gpu: gpu.clone(),
             kernels,
