@@ -5,12 +5,12 @@ use super::pictures::Pictures;
 use super::state::{Maximised, Opening, Preferences, State};
 use super::text::{Text, fill};
 use super::wake::Wake;
-use super::{help, image_view, inspector, keys, messages, pyramid, scene_menu, status_bar, theme, top_bar};
+use super::{help, image_view, inspector, keys, messages, pyramid, scene_menu, space, status_bar, theme, top_bar};
 use eframe::egui::{self, Align2, CentralPanel, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
 use web_time::Instant;
 
 /// What the other panels leave to the image with its toolbar, points.
-const IMAGE_ROOM: Vec2 = vec2(420.0, 290.0);
+const IMAGE_ROOM: Vec2 = vec2(560.0, 290.0);
 /// Height of the pyramid in a window with room for it: three rows of cells, points.
 const PYRAMID_HEIGHT: f32 = 356.0;
 
@@ -100,25 +100,33 @@ impl App {
         }
         Panel::bottom("status bar").frame(slim).show(ui, |ui| status_bar::show(ui, state, live, self.ui_ms));
         let body = Frame::central_panel(ui.style()).inner_margin(Margin::symmetric(10, 8));
-        if state.maximised == Maximised::Pyramid {
-            CentralPanel::default().frame(body).show(ui, |ui| pyramid::show(ui, state, live, pictures));
-            return;
-        }
-        if state.maximised == Maximised::None {
-            let room = ui.available_size();
-            if state.prefs.inspector_open {
-                let panel = Panel::right("inspector")
-                    .frame(body)
-                    .default_size((room.x * 0.42).min(470.0))
-                    .size_range(340.0..=(room.x - IMAGE_ROOM.x).max(340.0));
-                panel.show(ui, |ui| inspector::show(ui, state, live));
+        let whole = CentralPanel::default().frame(body);
+        match state.maximised {
+            Maximised::Pyramid => return drop(whole.show(ui, |ui| pyramid::show(ui, state, live, pictures))),
+            Maximised::Space => return drop(whole.show(ui, |ui| space::show(ui, state, live))),
+            Maximised::Inspector => return drop(whole.show(ui, |ui| inspector::show(ui, state, live))),
+            Maximised::Image => {}
+            Maximised::None => {
+                let room = ui.available_size();
+                if state.prefs.inspector_open {
+                    let panel = Panel::right("inspector")
+                        .frame(body)
+                        .default_size((room.x * 0.36).min(470.0))
+                        .size_range(340.0..=(room.x - IMAGE_ROOM.x).max(340.0));
+                    panel.show(ui, |ui| inspector::show(ui, state, live));
+                }
+                if state.prefs.pyramid_open {
+                    let panel = Panel::bottom("pyramid").frame(body).resizable(true).default_size((room.y * 0.43).min(PYRAMID_HEIGHT));
+                    panel.size_range(130.0..=(room.y - IMAGE_ROOM.y).max(130.0)).show(ui, |ui| pyramid::show(ui, state, live, pictures));
+                }
+                if state.prefs.space_open {
+                    let room = ui.available_size();
+                    let panel = Panel::right("space").frame(body).resizable(true).default_size(room.x * 0.5);
+                    panel.size_range(200.0..=(room.x - 240.0).max(200.0)).show(ui, |ui| space::show(ui, state, live));
+                }
             }
-            if state.prefs.pyramid_open {
-                let panel = Panel::bottom("pyramid").frame(body).resizable(true).default_size((room.y * 0.43).min(PYRAMID_HEIGHT));
-                panel.size_range(130.0..=(room.y - IMAGE_ROOM.y).max(130.0)).show(ui, |ui| pyramid::show(ui, state, live, pictures));
-            }
         }
-        self.image = CentralPanel::default().frame(body).show(ui, |ui| image_view::show(ui, state, live, pictures)).inner;
+        self.image = whole.show(ui, |ui| image_view::show(ui, state, live, pictures)).inner;
     }
 
     /// Files dropped on the window, and the invitation to drop them.

@@ -41,6 +41,10 @@ pub enum Tab {
     Path,
     /// The selected path under every strategy that has its length.
     Splits,
+    /// The scene, to change it.
+    Scene,
+    /// Is the image right?
+    Checks,
 }
 
 /// The order of the strategies table.
@@ -55,7 +59,7 @@ pub enum Sort {
 }
 
 /// What survives a restart of the program.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Preferences {
     /// Language.
@@ -78,6 +82,8 @@ pub struct Preferences {
     pub inspector_open: bool,
     /// Is the pyramid shown?
     pub pyramid_open: bool,
+    /// Is the 3-D view shown?
+    pub space_open: bool,
     /// Are the camera's controls shown?
     pub camera_open: bool,
 }
@@ -95,6 +101,7 @@ impl Default for Preferences {
             sort: Sort::Length,
             inspector_open: true,
             pyramid_open: true,
+            space_open: true,
             camera_open: false,
         }
     }

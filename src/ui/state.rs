@@ -1,7 +1,12 @@
 //! Everything a person can change in the window, as plain data: panels show it and edit it, and nothing else happens here.
 
+pub use super::checks::ChecksState;
+pub use super::edit::EditState;
+pub use super::export::ExportState;
 pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};
-use super::text::{Lang, Text};
+pub use super::space::SpaceState;
+pub use super::study::StudyState;
+use super::text::{Lang, Text, Words};
 use crate::bdpt::{Existence, Settings, Strategy, StrategySet};
 use crate::film::tonemap::ToneMap;
 use crate::scene::Lens;
@@ -53,6 +58,10 @@ pub enum Maximised {
     None,
     /// The image.
     Image,
+    /// The 3-D view.
+    Space,
+    /// The inspector.
+    Inspector,
     /// The pyramid.
     Pyramid,
 }
@@ -138,6 +147,16 @@ pub struct State {
     pub maximised: Maximised,
     /// Is the list of keys open?
     pub help: bool,
+    /// The 3-D view.
+    pub space: SpaceState,
+    /// Changes to the scene.
+    pub edit: EditState,
+    /// The pyramid's modes and comparisons.
+    pub study: StudyState,
+    /// The checks.
+    pub checks: ChecksState,
+    /// Saving.
+    pub export: ExportState,
     /// What there is to say.
     pub messages: Vec<Message>,
 }
@@ -167,12 +186,17 @@ impl State {
             walk: Walk::Full,
             maximised: Maximised::None,
             help: false,
+            space: SpaceState::default(),
+            edit: EditState::default(),
+            study: StudyState::default(),
+            checks: ChecksState::default(),
+            export: ExportState::default(),
             messages: Vec::new(),
         }
     }
 
     /// A text in the chosen language.
-    pub fn say(&self, text: Text) -> &'static str {
+    pub fn say(&self, text: impl Words) -> &'static str {
         text.in_language(self.prefs.lang)
     }
 

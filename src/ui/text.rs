@@ -1,7 +1,48 @@
-//! Every text of the window in English and Simplified Chinese, in one table (`text_table.rs`), switched while the program runs.
+//! Every text of the window in English and Simplified Chinese, in tables (`text/`), one for each part of it, switched while the program runs.
 //! A `{}` stands for a value that is filled in, in order.
 
-pub use super::text_table::Text;
+/// A table of texts: `texts! { Name; Key: "English", "简体中文"; … }`.
+macro_rules! texts {
+    ($name:ident; $($key:ident: $en:literal, $zh:literal;)*) => {
+        /// A text of the window.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[allow(missing_docs)]
+        pub enum $name { $($key,)* }
+
+        impl $name {
+            /// All of them.
+            pub const ALL: &[Self] = &[$(Self::$key,)*];
+
+            /// The text in a language.
+            pub const fn in_language(self, lang: $crate::ui::text::Lang) -> &'static str {
+                match (self, lang) { $((Self::$key, $crate::ui::text::Lang::En) => $en, (Self::$key, $crate::ui::text::Lang::Zh) => $zh,)* }
+            }
+        }
+
+        impl $crate::ui::text::Words for $name {
+            fn in_language(self, lang: $crate::ui::text::Lang) -> &'static str {
+                Self::in_language(self, lang)
+            }
+        }
+    };
+}
+
+mod check;
+mod edit;
+mod export;
+mod space;
+mod study;
+mod table;
+mod view;
+
+pub use check::CheckText;
+pub use edit::EditText;
+pub use export::ExportText;
+pub use space::SpaceText;
+pub use study::StudyText;
+pub use table::Text;
+pub use view::ViewText;
+
 use crate::bdpt::record::SplitReason;
 use crate::bdpt::{Absence, End, Reason};
 use serde::{Deserialize, Serialize};
@@ -14,6 +55,12 @@ pub enum Lang {
     En,
     /// 简体中文.
     Zh,
+}
+
+/// A text that there is in both languages.
+pub trait Words: Copy {
+    /// The text in a language.
+    fn in_language(self, lang: Lang) -> &'static str;
 }
 
 /// Puts values in the places of a text, in order.
@@ -146,14 +193,24 @@ pub fn end_text(end: End, lang: Lang) -> &'static str {
 mod tests {
     use super::*;
 
-    #[test]
-    fn every_text_has_both_languages_and_the_same_places() {
-        for text in Text::ALL {
+    fn check<T: Words + std::fmt::Debug>(table: &[T]) {
+        for text in table {
             let (en, zh) = (text.in_language(Lang::En), text.in_language(Lang::Zh));
             assert!(!en.trim().is_empty() && !zh.trim().is_empty(), "{text:?}");
             assert_eq!(en.matches("{}").count(), zh.matches("{}").count(), "{text:?}");
-            assert!(en.is_ascii() || !en.chars().any(|c| ('\u{4e00}'..='\u{9fff}').contains(&c)), "{text:?} is Chinese in English");
+            assert!(!en.chars().any(|c| ('\u{4e00}'..='\u{9fff}').contains(&c)), "{text:?} is Chinese in English");
         }
+    }
+
+    #[test]
+    fn every_text_has_both_languages_and_the_same_places() {
+        check(Text::ALL);
+        check(CheckText::ALL);
+        check(EditText::ALL);
+        check(ExportText::ALL);
+        check(SpaceText::ALL);
+        check(StudyText::ALL);
+        check(ViewText::ALL);
     }
 
     #[test]

@@ -4,12 +4,12 @@ mod path;
 mod splits;
 mod strategies;
 
-use super::format;
 use super::keys::{self, Action};
 use super::live::Live;
 use super::state::{State, Tab};
 use super::text::{Text, absence_text, fill, reason_text};
 use super::widgets::{full_name, labelled};
+use super::{checks, edit, format};
 use crate::bdpt::record::StrategyRecord;
 use crate::bdpt::{Existence, PathRecord, Strategy};
 use crate::math::Vec3;
@@ -17,18 +17,45 @@ use eframe::egui::{self, DragValue, Label, RichText, ScrollArea, Ui};
 
 /// Shows the inspector.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
-    header(ui, state, live);
+    tabs(ui, state);
+    if !matches!(state.prefs.tab, Tab::Scene | Tab::Checks) {
+        header(ui, state, live);
+    }
     ui.separator();
+    ScrollArea::vertical().id_salt(("inspector", state.prefs.tab)).auto_shrink(false).show(ui, |ui| page(ui, state, live));
+}
+
+fn page(ui: &mut Ui, state: &mut State, live: &Live) {
+    match state.prefs.tab {
+        Tab::Scene => return edit::show(ui, state, live),
+        Tab::Checks => return checks::show(ui, state, live),
+        _ => {}
+    }
     let Some(record) = live.record(state).cloned() else {
         let text = live.record_error().unwrap_or(state.say(Text::NoRecord));
         ui.label(RichText::new(text).weak());
         return;
     };
     let existence = live.existence();
-    ScrollArea::vertical().id_salt(("inspector", state.prefs.tab)).auto_shrink(false).show(ui, |ui| match state.prefs.tab {
-        Tab::Strategies => strategies::show(ui, state, &existence, &record),
+    match state.prefs.tab {
         Tab::Path => path::show(ui, state, &existence, &record),
         Tab::Splits => splits::show(ui, state, &existence, &record),
+        _ => strategies::show(ui, state, &existence, &record),
+    }
+}
+
+fn tabs(ui: &mut Ui, state: &mut State) {
+    ui.horizontal_wrapped(|ui| {
+        for (tab, text, help) in [
+            (Tab::Strategies, Text::TabStrategies, Text::HelpTabStrategies),
+            (Tab::Path, Text::TabPath, Text::HelpTabPath),
+            (Tab::Splits, Text::TabSplits, Text::HelpTabSplits),
+            (Tab::Scene, Text::TabScene, Text::HelpTabScene),
+            (Tab::Checks, Text::TabChecks, Text::HelpTabChecks),
+        ] {
+            let label = state.say(text);
+            ui.selectable_value(&mut state.prefs.tab, tab, label).on_hover_text(state.say(help));
+        }
     });
 }
 
@@ -59,16 +86,6 @@ fn header(ui: &mut Ui, state: &mut State, live: &Live) {
         let words = RichText::new(fill(state.say(Text::SampleAdds), &[&sum]));
         ui.add(Label::new(words).truncate()).on_hover_text(state.say(Text::HelpSampleAdds));
     }
-    ui.horizontal_wrapped(|ui| {
-        for (tab, text, help) in [
-            (Tab::Strategies, Text::TabStrategies, Text::HelpTabStrategies),
-            (Tab::Path, Text::TabPath, Text::HelpTabPath),
-            (Tab::Splits, Text::TabSplits, Text::HelpTabSplits),
-        ] {
-            let label = state.say(text);
-            ui.selectable_value(&mut state.prefs.tab, tab, label).on_hover_text(state.say(help));
-        }
-    });
 }
 
 /// What the sample adds to its own pixel: strategies that stay there, and those whose contribution happens to land there.

@@ -1,27 +1,7 @@
-//! The table of texts: key, English, Simplified Chinese. Chinese terms are those of the seed notes (双向路径追踪, 连接边, …).
+//! The texts of the window as it always is: key, English, Simplified Chinese. Chinese terms are those of the seed notes (双向路径追踪,
+//! 连接边, …).
 
-use super::text::Lang;
-
-macro_rules! texts {
-    ($($key:ident: $en:literal, $zh:literal;)*) => {
-        /// A text of the window.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        #[allow(missing_docs)]
-        pub enum Text { $($key,)* }
-
-        impl Text {
-            /// All of them.
-            pub const ALL: &[Self] = &[$(Self::$key,)*];
-
-            /// The text in a language.
-            pub const fn in_language(self, lang: Lang) -> &'static str {
-                match (self, lang) { $((Self::$key, Lang::En) => $en, (Self::$key, Lang::Zh) => $zh,)* }
-            }
-        }
-    };
-}
-
-texts! {
+texts! { Text;
     // Roles of strategies.
     RoleEyeHitsLight: "eye path hits light", "视线命中光源";
     RoleNextEvent: "next event", "直接采样光源";
@@ -92,6 +72,7 @@ texts! {
     HelpLanguage: "Switch the window to Chinese", "把界面切换为英文（English）";
     Inspector: "Inspector", "检查器";
     Pyramid: "Pyramid", "策略金字塔";
+    Space: "3-D", "三维";
     HelpTogglePanel: "Show or hide this panel", "显示或隐藏此面板";
     // Messages.
     Problem: "Problem", "问题";
@@ -193,6 +174,10 @@ texts! {
     HelpTabStrategies: "Every way to join the two subpaths of this sample", "连接该采样两条子路径的所有方式";
     HelpTabPath: "The vertices of the selected strategy's path, with densities", "所选策略的路径顶点及概率密度";
     HelpTabSplits: "The same path under every strategy that could have made it", "同一条路径在每个可能生成它的策略下";
+    TabScene: "Scene", "场景";
+    HelpTabScene: "Lights, materials, cameras and lens, to change them", "修改光源、材质、相机和镜头";
+    TabChecks: "Checks", "检查";
+    HelpTabChecks: "Is the image right? Tests of this scene, run on demand", "图像是否正确？按需运行针对此场景的检验";
     SortBy: "Order:", "排序：";
     SortLength: "path length", "路径长度";
     SortWeight: "weight", "权重";

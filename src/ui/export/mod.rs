@@ -1,0 +1,5 @@
+//! Saving: pictures, the path, its diagram, the table.
+
+/// What is being saved.
+#[derive(Clone, Debug, Default)]
+pub struct ExportState {}

@@ -1,0 +1,5 @@
+//! The texts of the checks.
+
+texts! { CheckText;
+    Title: "Checks", "检查";
+}

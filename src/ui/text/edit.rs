@@ -1,0 +1,5 @@
+//! The texts of the scene's page and of whatever changes the scene.
+
+texts! { EditText;
+    Title: "Scene", "场景";
+}

@@ -1,0 +1,5 @@
+//! The texts of saving.
+
+texts! { ExportText;
+    Title: "Save", "保存";
+}
