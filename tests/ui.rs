@@ -37,6 +37,10 @@ mod skip;
 mod surfaces;
 #[path = "ui/surroundings.rs"]
 mod surroundings;
+#[path = "ui/view.rs"]
+mod view;
+#[path = "ui/view_looks.rs"]
+mod view_looks;
 
 const SIZE: [u32; 2] = [64, 64];
 

@@ -44,9 +44,8 @@ pub fn false_colour(luminance: f32) -> [u8; 3] {
 
 /// The colour of a signed number, after exposure: orange above 0, blue below, black at it.
 pub fn signed(value: f32) -> [u8; 3] {
-    let size = encode_srgb(value.abs().min(1.0));
+    let size = if value.is_nan() { 0.0 } else { encode_srgb(value.abs().min(1.0)) };
     let colour = if value > 0.0 { ABOVE } else { BELOW };
-    // NaN has no size: `as` makes it 0.
     colour.map(|channel| (f32::from(channel) * size).round() as u8)
 }
 
