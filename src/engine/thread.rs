@@ -2,6 +2,8 @@
 
 use super::frame::{Frame, make_frame, make_picture};
 use super::picture::{Gallery, Picture, Source};
+use super::study::{Study, Wish};
+use super::surveyor::Surveyor;
 use super::{Job, JobError, Session};
 use crate::bdpt::StrategySet;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
@@ -31,6 +33,8 @@ pub struct Engine {
     commands: Sender<Command>,
     frame: Arc<Mutex<Option<Arc<Frame>>>>,
     gallery: Arc<Gallery>,
+    surveyor: Surveyor,
+    wish: Wish,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -42,6 +46,9 @@ impl Engine {
         let (commands, inbox) = channel();
         let frame = Arc::new(Mutex::new(None));
         let gallery = Arc::new(Gallery::default());
+        let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
+        let no_thread = |error| JobError(format!("cannot start the render thread: {error}"));
+        let surveyor = Surveyor::start(job.clone(), Arc::clone(&gallery), Arc::clone(&wake)).map_err(no_thread)?;
         let worker = Worker {
             session,
             generation: 0,
@@ -49,13 +56,11 @@ impl Engine {
             paused: false,
             frame: Arc::clone(&frame),
             gallery: Arc::clone(&gallery),
-            wake: Box::new(wake),
+            wake,
         };
-        let thread = std::thread::Builder::new()
-            .name("render".to_owned())
-            .spawn(move || worker.run(&inbox))
-            .map_err(|error| JobError(format!("cannot start the render thread: {error}")))?;
-        Ok(Self { job, generation: 0, hidden: StrategySet::NONE, paused: false, commands, frame, gallery, thread: Some(thread) })
+        let thread = std::thread::Builder::new().name("render".to_owned()).spawn(move || worker.run(&inbox)).map_err(no_thread)?;
+        let (hidden, paused, wish) = (StrategySet::NONE, false, Wish::default());
+        Ok(Self { job, generation: 0, hidden, paused, commands, frame, gallery, surveyor, wish, thread: Some(thread) })
     }
 
     /// Renders something else from now on. On an error the old job goes on. The new film is made by the thread: the caller,
@@ -66,6 +71,7 @@ impl Engine {
         self.job = job;
         self.generation += 1;
         self.send(Command::Restart(Box::new(self.job.clone()), self.generation));
+        self.surveyor.restart(self.job.clone(), self.generation);
         Ok(())
     }
 
@@ -103,8 +109,22 @@ impl Engine {
         let (picture, new) = self.gallery.ask(source, self.generation);
         if new {
             self.send(Command::Look);
+            self.surveyor.look();
         }
         picture
+    }
+
+    /// What is to be known about the strategies beside the image.
+    pub fn set_wish(&mut self, wish: Wish) {
+        if wish != self.wish {
+            self.wish = wish;
+            self.surveyor.wish(wish);
+        }
+    }
+
+    /// What is known of it about the current job.
+    pub fn study(&self) -> Option<Arc<Study>> {
+        self.surveyor.study().filter(|study| study.generation == self.generation)
     }
 
     /// Number of the current job.
@@ -139,7 +159,7 @@ struct Worker {
     paused: bool,
     frame: Arc<Mutex<Option<Arc<Frame>>>>,
     gallery: Arc<Gallery>,
-    wake: Box<dyn Fn() + Send + Sync>,
+    wake: Arc<dyn Fn() + Send + Sync>,
 }
 
 impl Worker {
