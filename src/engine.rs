@@ -8,6 +8,7 @@ pub use crate::film::Rect as Crop;
 use crate::math::Vec2;
 use crate::scene::Ray;
 
+mod batches;
 mod cpu;
 mod device;
 mod frame;
@@ -18,6 +19,7 @@ mod stats;
 mod study;
 mod surveyor;
 mod thread;
+pub use batches::Intervals;
 pub use device::device_in_use;
 pub use frame::{Frame, Thumbnail};
 pub use job::{Backend, FILM_BUDGET, Job, JobError, MAX_SIDE};

@@ -1,10 +1,11 @@
 //! A session on a thread of its own, for a window: commands go in, frames come out, and nobody waits.
 
+use super::batches::Batches;
 use super::frame::{Frame, make_frame, make_picture};
 use super::picture::{Gallery, Picture, Source};
 use super::study::{Study, Wish};
 use super::surveyor::Surveyor;
-use super::{Job, JobError, Session};
+use super::{Intervals, Job, JobError, Session};
 use crate::bdpt::StrategySet;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -53,6 +54,8 @@ impl Engine {
             session,
             generation: 0,
             hidden: StrategySet::NONE,
+            batches: Batches::new(StrategySet::NONE),
+            intervals: None,
             paused: false,
             frame: Arc::clone(&frame),
             gallery: Arc::clone(&gallery),
@@ -156,6 +159,8 @@ struct Worker {
     session: Session,
     generation: u64,
     hidden: StrategySet,
+    batches: Batches,
+    intervals: Option<Arc<Intervals>>,
     paused: bool,
     frame: Arc<Mutex<Option<Arc<Frame>>>>,
     gallery: Arc<Gallery>,
@@ -188,6 +193,7 @@ impl Worker {
             if !self.paused && !restarted {
                 self.session.step(SLICE);
             }
+            self.end_batch();
             if changed || Instant::now() >= next_frame {
                 let began = Instant::now();
                 self.publish();
@@ -201,15 +207,35 @@ impl Worker {
         // It was checked when it was sent.
         if let Ok(session) = Session::for_window(job) {
             (self.session, self.generation) = (session, generation);
+            (self.batches, self.intervals) = (Batches::new(self.hidden), None);
             // Kernels that are compiled already come at once: then the first picture need not be the CPU's.
             self.session.look_at_preparations(SLICE);
             self.session.step(SLICE);
         }
     }
 
+    /// Between two passes, a batch may end.
+    fn end_batch(&mut self) {
+        if self.batches.hidden() != self.hidden {
+            (self.batches, self.intervals) = (Batches::new(self.hidden), None);
+        }
+        if self.session.pass_fraction() != 0.0 || !self.batches.is_due(self.session.passes()) {
+            return;
+        }
+        self.session.collect();
+        if let Some(passes) = self.session.whole_passes() {
+            let whole = self.hidden == StrategySet::NONE;
+            let image = if whole { self.session.image() } else { self.session.image_without(&self.hidden) };
+            self.batches.end(passes, &image);
+            self.intervals = self.batches.intervals().map(Arc::new);
+        }
+    }
+
     fn publish(&mut self) {
         self.session.collect();
-        let frame = Arc::new(make_frame(&self.session, self.generation, self.hidden));
+        let mut frame = make_frame(&self.session, self.generation, self.hidden);
+        frame.intervals = self.intervals.clone();
+        let frame = Arc::new(frame);
         let pictures = self.gallery.wanted(true).into_iter().filter_map(|source| make_picture(&self.session, source, &frame));
         pictures.for_each(|picture| self.gallery.put(picture));
         *self.frame.lock().unwrap_or_else(PoisonError::into_inner) = Some(frame);
