@@ -35,12 +35,12 @@ impl Source {
 pub enum Values {
     /// Mean radiance, linear RGB, W m⁻² sr⁻¹.
     Colour(Vec<Vec3>),
-    /// A number per pixel; NaN where there is none (a mean weight where no sample carried light).
+    /// A number per pixel, at least 0; NaN where there is none (a mean weight where no sample carried light).
     Scalar(Vec<f32>),
 }
 
 impl Values {
-    /// Smallest and largest number that is finite; `None` for colours, and where there is no number.
+    /// Smallest and largest number above 0; `None` for colours, and where there is none.
     pub fn range(&self) -> Option<[f32; 2]> {
         match self {
             Self::Colour(_) => None,
@@ -60,16 +60,16 @@ pub struct Picture {
     pub size: [u32; 2],
     /// Its pixels.
     pub values: Values,
-    /// Smallest and largest number that is finite; `None` for colours, and where there is no number.
+    /// Smallest and largest number above 0; `None` for colours, and where there is none.
     pub range: Option<[f32; 2]>,
     /// Samples per pixel that it was made from.
     pub spp: f64,
 }
 
-/// Smallest and largest finite number; `None` if there is none.
+/// Smallest and largest finite number above 0; `None` if there is none.
 pub(super) fn range(values: &[f32]) -> Option<[f32; 2]> {
-    let finite = values.iter().filter(|v| v.is_finite());
-    finite.fold(None, |range, &v| {
+    let positive = values.iter().filter(|v| v.is_finite() && **v > 0.0);
+    positive.fold(None, |range, &v| {
         let [low, high] = range.unwrap_or([v, v]);
         Some([low.min(v), high.max(v)])
     })
@@ -118,8 +118,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_range_is_that_of_the_finite_numbers() {
-        assert_eq!(range(&[f32::NAN, 2.0, f32::INFINITY, -1.0]), Some([-1.0, 2.0]));
+    fn a_range_is_that_of_the_finite_numbers_above_zero() {
+        assert_eq!(range(&[f32::NAN, 2.0, f32::INFINITY, 0.0, 0.5]), Some([0.5, 2.0]));
         assert_eq!(range(&[f32::NAN]), None);
     }
 

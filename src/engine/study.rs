@@ -35,7 +35,7 @@ pub struct Study {
     pub block: u32,
     /// One per strategy that takes part, in index order.
     pub cells: Vec<CellStudy>,
-    /// Smallest and largest number of all cells.
+    /// Smallest and largest number above 0 of all cells.
     pub range: Option<[f32; 2]>,
     /// The pixel asked about.
     pub pixel: Option<PixelStudy>,
@@ -52,7 +52,7 @@ pub struct CellStudy {
     pub size: [u32; 2],
     /// Its picture; empty if there is none.
     pub values: Values,
-    /// Smallest and largest number in it.
+    /// Smallest and largest number above 0 in it.
     pub range: Option<[f32; 2]>,
     /// One number for the whole film. Raw: its energy over that of the image (luminance); weight: the mean weight of the samples
     /// that carry light; count: their share among all tries; variance: its share of the sum of all strategies' variances.
