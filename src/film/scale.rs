@@ -1,30 +1,7 @@
-//! Numbers as colours: Viridis over a linear or a logarithmic scale.
-//!
-//! Viridis is by Nathaniel Smith and Stéfan van der Walt, published with matplotlib under CC0: equal steps look equal, darker is
-//! less, and it is told apart by everybody. The table holds 33 of its colours, and a line is drawn between them.
+//! Where a number is on a linear or a logarithmic scale, for false colours ([`super::colourmap`]).
 
-/// Viridis at 0, 1/32, … 1; 0xRRGGBB.
-const VIRIDIS: [u32; 33] = [
-    0x440154, 0x470d60, 0x48186a, 0x482374, 0x472d7b, 0x453681, 0x424086, 0x3f4989, 0x3b528b, 0x375a8d, 0x33638d, 0x2f6a8e, 0x2c728e,
-    0x297a8e, 0x26818e, 0x23898e, 0x21908c, 0x1f988b, 0x1f9f88, 0x21a685, 0x28ae80, 0x31b57b, 0x3ebc74, 0x4cc26c, 0x5dc963, 0x6ece58,
-    0x82d34c, 0x96d83f, 0xabdc32, 0xc0df24, 0xd5e21a, 0xeae51a, 0xfde725,
-];
 /// A logarithmic scale spans no more than this: 10⁶.
 const DECADES: f32 = 1e6;
-
-/// The colour at `place`, 0…1 (beyond it: the end's).
-pub fn viridis(place: f32) -> [u8; 3] {
-    let steps = (VIRIDIS.len() - 1) as f32;
-    // `max` drops a NaN.
-    #[expect(clippy::manual_clamp)]
-    let at = (place.max(0.0).min(1.0)) * steps;
-    let first = (at as usize).min(VIRIDIS.len() - 2);
-    let (a, b, part) = (VIRIDIS[first], VIRIDIS[first + 1], at - first as f32);
-    [16, 8, 0].map(|shift| {
-        let channel = |colour: u32| (colour >> shift & 0xff) as f32;
-        (channel(a) + part * (channel(b) - channel(a))).round() as u8
-    })
-}
 
 /// Where numbers are on a scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,22 +49,6 @@ impl Scale {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn known_colours() {
-        // Entries 20, 77, 137 and 201 of the 256 that matplotlib has.
-        for (index, colour) in [(0, [68, 1, 84]), (20, [72, 29, 111]), (77, [52, 96, 141]), (137, [31, 153, 138]), (201, [115, 208, 86])] {
-            let ours = viridis(index as f32 / 255.0);
-            assert!(ours.iter().zip(colour).all(|(a, b): (&u8, u8)| a.abs_diff(b) <= 2), "{index}: {ours:?}");
-        }
-        assert_eq!([viridis(f32::NAN), viridis(-1.0), viridis(2.0)], [[68, 1, 84], [68, 1, 84], [253, 231, 37]]);
-    }
-
-    #[test]
-    fn brighter_is_more() {
-        let luminance = |place: f32| viridis(place).iter().zip([0.2126, 0.7152, 0.0722]).map(|(&c, k)| f32::from(c) * k).sum::<f32>();
-        assert!((0..=64).map(|i| luminance(i as f32 / 64.0)).is_sorted());
-    }
 
     #[test]
     fn numbers_have_their_places() {
