@@ -2,6 +2,7 @@
 //! frame, exposure or tone map asks for it; until a new one is ready the old one stays.
 
 use super::state::{Gain, State};
+use super::study::textures::CellTextures;
 use crate::bdpt::Strategy;
 use crate::engine::Frame;
 use crate::film::tonemap::{ToneMap, to_srgb8};
@@ -39,6 +40,8 @@ struct Slot {
 
 /// The pictures on show, and the thread that makes them.
 pub struct Pictures {
+    /// Those of the cells that show what was counted.
+    pub cells: CellTextures,
     slots: HashMap<Target, Slot>,
     requests: Sender<Request>,
     ready: Receiver<(Target, Key, ColorImage)>,
@@ -51,7 +54,7 @@ impl Pictures {
         let (outbox, ready) = channel();
         let ctx = ctx.clone();
         std::thread::spawn(move || develop(&inbox, &outbox, &ctx));
-        Self { slots: HashMap::new(), requests, ready }
+        Self { cells: CellTextures::default(), slots: HashMap::new(), requests, ready }
     }
 
     /// Takes in the pictures that are ready.

@@ -3,6 +3,7 @@
 use super::format;
 use super::live::Live;
 use super::state::State;
+use super::study;
 use super::text::{Lang, Text, fill};
 use crate::engine::{Backend, Notice, Stats};
 use eframe::egui::{self, Align, Color32, Label, Layout, RichText, Ui, WidgetText, vec2};
@@ -164,8 +165,9 @@ fn selection(state: &State, live: &Live) -> Vec<Item> {
             Some(_) => "–".to_owned(),
             None => value.to_array().map(|v| format::number(f64::from(v))).join("  "),
         };
-        let text = RichText::new(format!("{} {value}", state.say(Text::PixelValue))).monospace().small();
-        items.push(Item::new(text, state.say(Text::HelpPixelValue), 0));
+        let (interval, about) = study::interval::words(state, frame);
+        let text = RichText::new(format!("{} {value}  {interval}", state.say(Text::PixelValue))).monospace().small();
+        items.push(Item::new(text, format!("{}\n{about}", state.say(Text::HelpPixelValue)), 0));
     }
     items
 }
