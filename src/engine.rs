@@ -8,6 +8,7 @@ pub use crate::film::Rect as Crop;
 use crate::math::Vec2;
 use crate::scene::Ray;
 
+mod batches;
 mod cpu;
 mod device;
 mod frame;
@@ -15,13 +16,18 @@ mod job;
 mod picture;
 mod session;
 mod stats;
+mod study;
+mod surveyor;
 mod thread;
+pub use batches::Intervals;
 pub use device::device_in_use;
 pub use frame::{Frame, Thumbnail};
 pub use job::{Backend, FILM_BUDGET, Job, JobError, MAX_SIDE};
 pub use picture::{Mode, Picture, Source, Values};
 pub use session::Session;
 pub use stats::{Notice, Stats};
+pub use study::{CellStudy, Landed, PixelStudy, Study, Wish};
+pub use surveyor::PIXEL_SAMPLES;
 pub use thread::Engine;
 
 /// Re-runs one sample of one pixel: the very path the renderer used. Takes well under a millisecond.

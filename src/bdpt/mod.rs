@@ -24,6 +24,7 @@ pub mod render;
 pub mod replay;
 pub mod settings;
 pub mod strategy;
+pub mod survey;
 pub mod vertex;
 pub mod visibility;
 pub mod walk;

@@ -43,6 +43,27 @@ pub enum Reason {
 }
 
 impl Reason {
+    /// All of them, in order: the index of one is itself as a number.
+    pub const ALL: [Self; 17] = [
+        Self::LightSubpathTooShort,
+        Self::EyeSubpathTooShort,
+        Self::LightVertexIsDirac,
+        Self::EyeVertexIsDirac,
+        Self::NotOnALight,
+        Self::BackOfTheLight,
+        Self::BehindTheCamera,
+        Self::OutsideTheFilm,
+        Self::LightVertexScattersNothing,
+        Self::EyeVertexScattersNothing,
+        Self::DegenerateEdge,
+        Self::EyeVertexAtInfinity,
+        Self::LightMissesTheLens,
+        Self::LightNotShown,
+        Self::Blocked,
+        Self::NoLight,
+        Self::Removed,
+    ];
+
     /// One plain sentence.
     pub fn text(self) -> &'static str {
         match self {
@@ -68,5 +89,15 @@ impl Reason {
             Self::NoLight => "the scene has no light",
             Self::Removed => "the strategy was removed, so it is not evaluated",
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_index_of_a_reason_is_itself() {
+        assert!(Reason::ALL.iter().enumerate().all(|(index, reason)| *reason as usize == index));
     }
 }

@@ -1,10 +1,11 @@
 //! What the window shows of a session, made a few times a second: the image, and a thumbnail of every strategy.
 
 use super::picture::{Picture, Source, Values};
-use super::{Session, Stats};
+use super::{Intervals, Session, Stats};
 use crate::bdpt::{Strategy, StrategySet};
 use crate::math::Vec3;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Longest side of a thumbnail, pixels.
 const THUMBNAIL_SIDE: u32 = 96;
@@ -25,7 +26,7 @@ pub struct Thumbnail {
 /// What the window shows; made a few times a second.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    /// Which job it belongs to: 0 for the first, one more for every [`Engine::restart`].
+    /// Which job it belongs to: 0 for the first, one more for every [`super::Engine::restart`].
     pub generation: u64,
     /// Size, pixels.
     pub size: [u32; 2],
@@ -35,6 +36,8 @@ pub struct Frame {
     pub thumbnails: Vec<Thumbnail>,
     /// The strategies that were left out of the sum.
     pub hidden: StrategySet,
+    /// How sure the image is, once there are passes enough.
+    pub intervals: Option<Arc<Intervals>>,
     /// Counts and times.
     pub stats: Stats,
     /// Pairs of subpaths per second of rendering.
@@ -74,7 +77,7 @@ pub(super) fn make_frame(session: &Session, generation: u64, hidden: StrategySet
     let thumbnails = thumbnails(&layers.iter().map(|(x, _, _)| *x).collect::<Vec<_>>(), small, &thumbnail_rows, [width, height], factor);
     let stats = session.stats();
     let pairs_per_second = if stats.seconds > 0.0 { stats.pairs as f64 / stats.seconds } else { 0.0 };
-    Frame { generation, size: [width, height], image, thumbnails, hidden, stats, pairs_per_second }
+    Frame { generation, size: [width, height], image, thumbnails, hidden, intervals: None, stats, pairs_per_second }
 }
 
 /// Thumbnails from their rows of sums, with each one's share of the energy.

@@ -4,6 +4,7 @@
 //! the window, and what nobody has asked for in a while is made no more.
 
 use crate::bdpt::Strategy;
+pub use crate::bdpt::survey::Mode;
 use crate::math::Vec3;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -12,32 +13,6 @@ use web_time::Instant;
 
 /// A picture that nobody has asked for in this time is made no more.
 const PATIENCE: Duration = Duration::from_secs(2);
-
-/// What of a strategy is shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Mode {
-    /// C = w C*, mean radiance, W m⁻² sr⁻¹: the cells add up to the image.
-    #[default]
-    Weighted,
-    /// C*, mean radiance, W m⁻² sr⁻¹: every strategy that can make all paths of its length shows the same picture.
-    Raw,
-    /// Mean weight w of the samples that carry light, 0…1.
-    Weight,
-    /// Samples that carry light, per pass.
-    Count,
-    /// Variance of what one pass adds to a pixel, luminance, (W m⁻² sr⁻¹)².
-    Variance,
-}
-
-impl Mode {
-    /// All of them, in the order they are offered.
-    pub const ALL: [Self; 5] = [Self::Weighted, Self::Raw, Self::Weight, Self::Count, Self::Variance];
-
-    /// Is it a colour picture, to be tone mapped? (Else it has one number per pixel, to be shown in false colour.)
-    pub const fn is_colour(self) -> bool {
-        matches!(self, Self::Weighted | Self::Raw)
-    }
-}
 
 /// A picture to ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -60,8 +35,18 @@ impl Source {
 pub enum Values {
     /// Mean radiance, linear RGB, W m⁻² sr⁻¹.
     Colour(Vec<Vec3>),
-    /// A number per pixel; NaN where there is none (a mean weight where no sample carried light).
+    /// A number per pixel, at least 0; NaN where there is none (a mean weight where no sample carried light).
     Scalar(Vec<f32>),
+}
+
+impl Values {
+    /// Smallest and largest number above 0; `None` for colours, and where there is none.
+    pub fn range(&self) -> Option<[f32; 2]> {
+        match self {
+            Self::Colour(_) => None,
+            Self::Scalar(values) => range(values),
+        }
+    }
 }
 
 /// A picture, made at some moment of a rendering.
@@ -75,16 +60,16 @@ pub struct Picture {
     pub size: [u32; 2],
     /// Its pixels.
     pub values: Values,
-    /// Smallest and largest number that is finite; `None` for colours, and where there is no number.
+    /// Smallest and largest number above 0; `None` for colours, and where there is none.
     pub range: Option<[f32; 2]>,
     /// Samples per pixel that it was made from.
     pub spp: f64,
 }
 
-/// Smallest and largest finite number; `None` if there is none.
+/// Smallest and largest finite number above 0; `None` if there is none.
 pub(super) fn range(values: &[f32]) -> Option<[f32; 2]> {
-    let finite = values.iter().filter(|v| v.is_finite());
-    finite.fold(None, |range, &v| {
+    let positive = values.iter().filter(|v| v.is_finite() && **v > 0.0);
+    positive.fold(None, |range, &v| {
         let [low, high] = range.unwrap_or([v, v]);
         Some([low.min(v), high.max(v)])
     })
@@ -133,8 +118,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_range_is_that_of_the_finite_numbers() {
-        assert_eq!(range(&[f32::NAN, 2.0, f32::INFINITY, -1.0]), Some([-1.0, 2.0]));
+    fn a_range_is_that_of_the_finite_numbers_above_zero() {
+        assert_eq!(range(&[f32::NAN, 2.0, f32::INFINITY, 0.0, 0.5]), Some([0.5, 2.0]));
         assert_eq!(range(&[f32::NAN]), None);
     }
 

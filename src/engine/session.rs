@@ -236,6 +236,12 @@ impl Session {
         }
     }
 
+    /// Samples per pixel in the film, if every pixel has as many.
+    pub(super) fn whole_passes(&self) -> Option<u32> {
+        let most = self.film.most_samples();
+        (self.film.mean_samples() == f64::from(most)).then_some(most)
+    }
+
     /// The image, accumulated on its own: mean radiance per pixel of the full film, row by row from the top; 0 outside the crop.
     pub fn image(&self) -> Vec<Vec3> {
         let means = self.film.means();

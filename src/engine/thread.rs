@@ -1,8 +1,11 @@
 //! A session on a thread of its own, for a window: commands go in, frames come out, and nobody waits.
 
+use super::batches::Batches;
 use super::frame::{Frame, make_frame, make_picture};
 use super::picture::{Gallery, Picture, Source};
-use super::{Job, JobError, Session};
+use super::study::{Study, Wish};
+use super::surveyor::Surveyor;
+use super::{Intervals, Job, JobError, Session};
 use crate::bdpt::StrategySet;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -31,6 +34,8 @@ pub struct Engine {
     commands: Sender<Command>,
     frame: Arc<Mutex<Option<Arc<Frame>>>>,
     gallery: Arc<Gallery>,
+    surveyor: Surveyor,
+    wish: Wish,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -42,20 +47,23 @@ impl Engine {
         let (commands, inbox) = channel();
         let frame = Arc::new(Mutex::new(None));
         let gallery = Arc::new(Gallery::default());
+        let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
+        let no_thread = |error| JobError(format!("cannot start the render thread: {error}"));
+        let surveyor = Surveyor::start(job.clone(), Arc::clone(&gallery), Arc::clone(&wake)).map_err(no_thread)?;
         let worker = Worker {
             session,
             generation: 0,
             hidden: StrategySet::NONE,
+            batches: Batches::new(StrategySet::NONE),
+            intervals: None,
             paused: false,
             frame: Arc::clone(&frame),
             gallery: Arc::clone(&gallery),
-            wake: Box::new(wake),
+            wake,
         };
-        let thread = std::thread::Builder::new()
-            .name("render".to_owned())
-            .spawn(move || worker.run(&inbox))
-            .map_err(|error| JobError(format!("cannot start the render thread: {error}")))?;
-        Ok(Self { job, generation: 0, hidden: StrategySet::NONE, paused: false, commands, frame, gallery, thread: Some(thread) })
+        let thread = std::thread::Builder::new().name("render".to_owned()).spawn(move || worker.run(&inbox)).map_err(no_thread)?;
+        let (hidden, paused, wish) = (StrategySet::NONE, false, Wish::default());
+        Ok(Self { job, generation: 0, hidden, paused, commands, frame, gallery, surveyor, wish, thread: Some(thread) })
     }
 
     /// Renders something else from now on. On an error the old job goes on. The new film is made by the thread: the caller,
@@ -66,6 +74,7 @@ impl Engine {
         self.job = job;
         self.generation += 1;
         self.send(Command::Restart(Box::new(self.job.clone()), self.generation));
+        self.surveyor.restart(self.job.clone(), self.generation);
         Ok(())
     }
 
@@ -103,8 +112,22 @@ impl Engine {
         let (picture, new) = self.gallery.ask(source, self.generation);
         if new {
             self.send(Command::Look);
+            self.surveyor.look();
         }
         picture
+    }
+
+    /// What is to be known about the strategies beside the image.
+    pub fn set_wish(&mut self, wish: Wish) {
+        if wish != self.wish {
+            self.wish = wish;
+            self.surveyor.wish(wish);
+        }
+    }
+
+    /// What is known of it about the current job.
+    pub fn study(&self) -> Option<Arc<Study>> {
+        self.surveyor.study().filter(|study| study.generation == self.generation)
     }
 
     /// Number of the current job.
@@ -136,10 +159,12 @@ struct Worker {
     session: Session,
     generation: u64,
     hidden: StrategySet,
+    batches: Batches,
+    intervals: Option<Arc<Intervals>>,
     paused: bool,
     frame: Arc<Mutex<Option<Arc<Frame>>>>,
     gallery: Arc<Gallery>,
-    wake: Box<dyn Fn() + Send + Sync>,
+    wake: Arc<dyn Fn() + Send + Sync>,
 }
 
 impl Worker {
@@ -168,6 +193,7 @@ impl Worker {
             if !self.paused && !restarted {
                 self.session.step(SLICE);
             }
+            self.end_batch();
             if changed || Instant::now() >= next_frame {
                 let began = Instant::now();
                 self.publish();
@@ -181,15 +207,35 @@ impl Worker {
         // It was checked when it was sent.
         if let Ok(session) = Session::for_window(job) {
             (self.session, self.generation) = (session, generation);
+            (self.batches, self.intervals) = (Batches::new(self.hidden), None);
             // Kernels that are compiled already come at once: then the first picture need not be the CPU's.
             self.session.look_at_preparations(SLICE);
             self.session.step(SLICE);
         }
     }
 
+    /// Between two passes, a batch may end.
+    fn end_batch(&mut self) {
+        if self.batches.hidden() != self.hidden {
+            (self.batches, self.intervals) = (Batches::new(self.hidden), None);
+        }
+        if self.session.pass_fraction() != 0.0 || !self.batches.is_due(self.session.passes()) {
+            return;
+        }
+        self.session.collect();
+        if let Some(passes) = self.session.whole_passes() {
+            let whole = self.hidden == StrategySet::NONE;
+            let image = if whole { self.session.image() } else { self.session.image_without(&self.hidden) };
+            self.batches.end(passes, &image);
+            self.intervals = self.batches.intervals().map(Arc::new);
+        }
+    }
+
     fn publish(&mut self) {
         self.session.collect();
-        let frame = Arc::new(make_frame(&self.session, self.generation, self.hidden));
+        let mut frame = make_frame(&self.session, self.generation, self.hidden);
+        frame.intervals = self.intervals.clone();
+        let frame = Arc::new(frame);
         let pictures = self.gallery.wanted(true).into_iter().filter_map(|source| make_picture(&self.session, source, &frame));
         pictures.for_each(|picture| self.gallery.put(picture));
         *self.frame.lock().unwrap_or_else(PoisonError::into_inner) = Some(frame);

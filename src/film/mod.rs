@@ -10,6 +10,7 @@ pub mod colourmap;
 pub mod difference;
 pub mod picture;
 pub mod save;
+pub mod scale;
 pub mod tonemap;
 
 use crate::math::Vec3;

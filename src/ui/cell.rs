@@ -1,18 +1,20 @@
-//! One cell of the pyramid: the strategy's image, its role, its share of the energy and its two switches.
+//! One cell of the pyramid: the strategy's picture, its role, its share and its two switches; why it is black, if it is.
 
 use super::format;
 use super::live::Live;
 use super::pictures::Pictures;
 use super::state::State;
-use super::text::{Text, fill};
+use super::study::{self, verdict::Verdict};
+use super::text::{StudyText, Text, fill};
 use super::theme;
 use super::widgets::{Icon, IconToggle, aligned_text, cell_text, full_name, icon_toggle, pair, role_help, role_name};
 use crate::bdpt::Strategy;
-use crate::engine::{Mode, Thumbnail};
+use crate::engine::{Mode, Study};
 use eframe::egui::epaint::RectShape;
+use eframe::egui::text::LayoutJob;
 use eframe::egui::{
-    self, Align2, Color32, CornerRadius, FontId, Pos2, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo,
-    pos2, vec2,
+    self, Align, Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
 };
 
 /// Height of a line of the caption, which covers the foot of the picture.
@@ -26,107 +28,145 @@ pub fn size(state: &State) -> Vec2 {
 }
 
 /// What a cell has to show.
-struct Content<'a> {
+struct Content {
     strategy: Strategy,
-    thumbnail: Option<&'a Thumbnail>,
+    verdict: Verdict,
+    /// Its share, in numbers and as a part of the whole; what it is a share of depends on the mode.
+    share: Option<(String, f32)>,
     hidden: bool,
-    removed: bool,
-    /// The first pass is not complete: no share says anything yet.
-    early: bool,
 }
 
-impl Content<'_> {
-    /// Why there is no picture.
-    fn empty(&self, state: &State) -> Option<&'static str> {
-        match self.thumbnail {
-            _ if self.removed => Some(state.say(Text::CellRemoved)),
-            None => Some(state.say(Text::CellWaiting)),
-            Some(thumbnail) if thumbnail.share <= 0.0 && !self.early => Some(state.say(Text::CellNothing)),
-            Some(_) => None,
+impl Content {
+    fn of(state: &State, live: &Live, study: Option<&Study>, strategy: Strategy) -> Self {
+        let counted = study.and_then(|study| study.cell(strategy)?.share);
+        let thumbnail = live.frame().and_then(|frame| frame.thumbnails.iter().find(|x| x.strategy == strategy));
+        let share = match state.study.mode {
+            // While the first pass is not complete, no share says anything yet.
+            Mode::Weighted => thumbnail.map(|x| x.share).filter(|_| live.first_pass().is_none()),
+            _ => counted,
+        };
+        let written = |share: f64| if state.study.mode == Mode::Weight { format::weight(share) } else { format::percent(share) };
+        Self {
+            strategy,
+            verdict: Verdict::on(state, live, strategy),
+            share: share.map(|share| (written(share), share as f32)),
+            hidden: state.hidden.contains(strategy),
         }
     }
 
-    fn share(&self) -> String {
-        let share = self.thumbnail.map_or(0.0, |x| x.share);
-        if self.early { "–".to_owned() } else { format::percent(share) }
+    fn removed(&self) -> bool {
+        self.verdict == Verdict::Removed
+    }
+
+    fn share(&self) -> &str {
+        self.share.as_ref().map_or("–", |(words, _)| words)
+    }
+
+    /// The share in a sentence.
+    fn share_sentence(&self, state: &State) -> String {
+        let text = match state.study.mode {
+            Mode::Weighted => return fill(state.say(Text::ShareOfEnergy), &[self.share()]),
+            Mode::Raw => StudyText::ShareRaw,
+            Mode::Weight => StudyText::ShareWeight,
+            Mode::Count => StudyText::ShareCount,
+            Mode::Variance => StudyText::ShareVariance,
+        };
+        fill(state.say(text), &[self.share()])
     }
 }
 
 /// Shows a cell.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures, strategy: Strategy) {
     let (rect, response) = ui.allocate_exact_size(size(state), Sense::click());
-    let frame = live.frame();
-    let content = Content {
-        strategy,
-        thumbnail: frame.and_then(|frame| frame.thumbnails.iter().find(|x| x.strategy == strategy)),
-        hidden: state.hidden.contains(strategy),
-        removed: !state.settings.strategies.contains(strategy),
-        early: live.first_pass().is_some(),
-    };
+    let study = study::current(state, live);
+    let content = Content::of(state, live, study.as_deref(), strategy);
     let chosen = state.selection.strategy == strategy;
     let spoken = spoken(state, &content);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &spoken));
     if response.clicked() {
         state.select_strategy(strategy);
+        // Who clicks on black wants to know why.
+        state.study.why |= matches!(content.verdict, Verdict::Nothing | Verdict::Black(..) | Verdict::Outweighed | Verdict::Dim(_));
     }
     // Enter also counts as a click.
     if response.double_clicked() || (response.has_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter))) {
-        state.open_large(strategy, Mode::Weighted);
+        state.open_large(strategy, state.study.mode);
     }
     if ui.is_rect_visible(rect) {
-        let visible = frame.filter(|_| content.empty(state).is_none());
-        let texture = visible.and_then(|frame| pictures.texture(state, frame, live.frame_number(), Some(strategy)));
+        let texture = match (state.study.mode, &study) {
+            _ if !matches!(content.verdict, Verdict::Lit | Verdict::Dim(_)) => None,
+            (Mode::Weighted, _) => live.frame().and_then(|frame| pictures.texture(state, frame, live.frame_number(), strategy)),
+            (_, Some(study)) => study.cell(strategy).and_then(|cell| pictures.cells.texture(ui.ctx(), state, study, cell)),
+            (_, None) => None,
+        };
         paint(ui, state, &content, rect, texture);
         caption(ui, state, &content, rect.with_min_y(rect.bottom() - 2.0 * LINE));
         outline(ui, rect, chosen, &response);
     }
-    tooltip(state, &content, response);
+    tooltip(state, live, &content, response);
     switches(ui, state, strategy, rect);
 }
 
-fn spoken(state: &State, content: &Content<'_>) -> String {
+fn spoken(state: &State, content: &Content) -> String {
     let name = full_name(content.strategy, state.prefs.lang);
-    match content.empty(state) {
+    match content.verdict.short(state) {
         Some(why) => format!("{name}: {why}"),
         None => format!("{name}: {}", content.share()),
     }
 }
 
-fn paint(ui: &Ui, state: &State, content: &Content<'_>, picture: Rect, texture: Option<egui::TextureId>) {
+fn paint(ui: &Ui, state: &State, content: &Content, picture: Rect, texture: Option<egui::TextureId>) {
     let painter = ui.painter();
     let round = CornerRadius::same(5);
-    let waiting = texture.is_none() && !content.thumbnail.is_some_and(|x| x.share <= 0.0);
-    let ground = if content.removed || waiting { theme::faint(ui.visuals()) } else { Color32::BLACK };
+    // Not there yet: black would say that there is no light.
+    let waiting = texture.is_none() && matches!(content.verdict, Verdict::Lit | Verdict::Dim(_) | Verdict::Waiting);
+    let faint = content.removed() || waiting || !state.study.mode.is_colour();
+    let ground = if faint { theme::faint(ui.visuals()) } else { Color32::BLACK };
     painter.rect_filled(picture, round, ground);
     if let Some(texture) = texture {
         let tint = if content.hidden { Color32::from_gray(70) } else { Color32::WHITE };
         let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
         painter.add(RectShape::filled(picture, round, tint).with_texture(texture, whole));
     }
-    let words = match content.empty(state) {
-        // Not there yet: black would say that there is no light.
-        _ if waiting && !content.removed => Some("…"),
-        why => why.or(content.hidden.then(|| state.say(Text::CellHidden))),
+    let words = match content.verdict.short(state) {
+        _ if waiting => Some("…".to_owned()),
+        why => why.or(content.hidden.then(|| state.say(Text::CellHidden).to_owned())),
     };
     if let Some(words) = words {
-        let colour = if content.removed || waiting { ui.visuals().text_color() } else { Color32::from_gray(0xd0) };
+        let colour = if faint && texture.is_none() { ui.visuals().text_color() } else { Color32::from_gray(0xd0) };
         let place = Rect::from_min_max(pos2(picture.left() + 5.0, picture.top() + 23.0), picture.max - vec2(5.0, 2.0 * LINE));
-        aligned_text(painter, place, Align2::CENTER_CENTER, words, FontId::proportional(11.5), colour);
+        wrapped_text(painter, place, words, FontId::proportional(11.0), colour);
     }
 }
 
+/// Words in the middle of a place, in as many lines as fit.
+fn wrapped_text(painter: &Painter, place: Rect, words: String, font: FontId, colour: Color32) {
+    let rows = (place.height() / (font.size + 2.5)).floor().max(1.0) as usize;
+    let mut job = LayoutJob::simple(words, font, colour, place.width());
+    job.halign = Align::Center;
+    job.wrap.max_rows = rows;
+    let galley = painter.layout_job(job);
+    let top = place.center().y - 0.5 * galley.size().y;
+    painter.galley(pos2(place.center().x, top.max(place.top() - 2.0)), galley, colour);
+}
+
 /// Role, (s,t) and share, over the foot of the picture.
-fn caption(ui: &Ui, state: &State, content: &Content<'_>, rect: Rect) {
+fn caption(ui: &Ui, state: &State, content: &Content, rect: Rect) {
     let painter = ui.painter();
     painter.rect_filled(rect, CornerRadius { nw: 0, ne: 0, sw: 5, se: 5 }, Color32::from_black_alpha(0xb8));
     let (top, bottom) = rect.shrink2(vec2(5.0, 1.0)).split_top_bottom_at_fraction(0.5);
     let weak = Color32::from_gray(0xb4);
-    let colour = if content.hidden || content.removed { weak } else { Color32::from_gray(0xf0) };
+    let colour = if content.hidden || content.removed() { weak } else { Color32::from_gray(0xf0) };
     cell_text(painter, top, &role_name(content.strategy, state.prefs.lang), FontId::proportional(11.5), colour);
     let taken = cell_text(painter, bottom, &pair(content.strategy), FontId::proportional(11.0), weak);
-    if content.thumbnail.is_some_and(|x| content.early || x.share > 0.0) && !content.removed {
+    if matches!(content.verdict, Verdict::Lit | Verdict::Dim(_)) {
         let rest = bottom.with_min_x(bottom.left() + taken + 4.0);
-        aligned_text(painter, rest, Align2::RIGHT_CENTER, &content.share(), FontId::proportional(11.5), colour);
+        aligned_text(painter, rest, Align2::RIGHT_CENTER, content.share(), FontId::proportional(11.5), colour);
+        // The share as a bar, along the lower edge.
+        let part = content.share.as_ref().map_or(0.0, |(_, part)| part.clamp(0.0, 1.0));
+        let line = Rect::from_min_max(pos2(rect.left() + 4.0, rect.bottom() - 3.0), pos2(rect.right() - 4.0, rect.bottom() - 1.0));
+        painter.rect_filled(line, CornerRadius::ZERO, Color32::from_gray(0x48));
+        painter.rect_filled(line.with_max_x(line.left() + part * line.width()), CornerRadius::ZERO, theme::SHARE);
     }
 }
 
@@ -141,15 +181,21 @@ fn outline(ui: &Ui, rect: Rect, chosen: bool, response: &Response) {
     ui.painter().rect_stroke(rect, CornerRadius::same(5), stroke, StrokeKind::Inside);
 }
 
-fn tooltip(state: &State, content: &Content<'_>, response: Response) {
+fn tooltip(state: &State, live: &Live, content: &Content, response: Response) {
     response.on_hover_ui(|ui| {
         ui.label(RichText::new(full_name(content.strategy, state.prefs.lang)).strong());
         ui.label(state.say(role_help(content.strategy.role())));
-        if content.thumbnail.is_some() {
-            ui.label(fill(state.say(Text::ShareOfEnergy), &[&content.share()]));
+        if content.share.is_some() {
+            ui.label(content.share_sentence(state));
         }
-        if let Some(why) = content.empty(state) {
+        if let Verdict::Dim(stops) = content.verdict {
+            ui.label(fill(state.say(StudyText::VerdictDim), &[&stops.to_string()]));
+        } else if let Some(why) = content.verdict.short(state) {
             ui.label(RichText::new(why).weak());
+        }
+        let study = live.study();
+        if let Some(cell) = study.as_ref().and_then(|study| study.cell(content.strategy)).filter(|cell| cell.outcomes.tries > 0) {
+            study::why::frequent(ui, state, &cell.outcomes);
         }
     });
 }

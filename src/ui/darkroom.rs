@@ -1,10 +1,11 @@
 //! The image view's pictures as textures: developed on a thread of their own, and only when a picture or the way it is shown has
 //! changed; until a new print is ready the old one stays.
 
-use super::compare::{Content, Pair, Scale, Source, Sourced, Value};
+use super::compare::{Content, Pair, Source, Sourced, Value};
 use super::state::State;
 use crate::film::colourmap::{false_colour, signed, viridis};
 use crate::film::difference::{Figures, Metric, figures};
+use crate::film::scale::Scale;
 use crate::film::tonemap::Look;
 use crate::math::Vec3;
 use eframe::egui::{self, Color32, ColorImage, TextureFilter, TextureHandle, TextureId, TextureOptions};
@@ -45,7 +46,7 @@ impl Recipe {
             Self::Look(look) => look.rgb8(value.rgb()),
             Self::Number(scale) => match number(value) {
                 0.0 => [0; 3],
-                number => viridis(scale.place(number)),
+                number => viridis(scale.place(number).unwrap_or(0.0)),
             },
             Self::Difference(Metric::Signed, ev) => signed(number(value) * ev.exp2()),
             Self::Difference(_, ev) => false_colour(number(value) * ev.exp2()),
@@ -240,7 +241,7 @@ mod tests {
 
     #[test]
     fn a_mean_over_nothing_is_not_an_error() {
-        let recipe = Recipe::Number(Scale::Linear(1.0));
+        let recipe = Recipe::Number(Scale::linear([0.0, 1.0]));
         assert_eq!(recipe.colour(Value::Number(f32::NAN)), Some(NOTHING));
         assert_eq!(recipe.colour(Value::Number(f32::INFINITY)), None);
         assert_eq!(recipe.colour(Value::Number(0.0)), Some(Color32::BLACK));

@@ -3,6 +3,7 @@
 use super::state::{Placement, Source, State};
 use super::text::{Text, Words};
 use crate::bdpt::Strategy;
+use crate::engine::Mode;
 use eframe::egui;
 use eframe::egui::Key;
 
@@ -39,6 +40,10 @@ pub enum Action {
     Pause,
     /// Hide or show the selected strategy.
     Hide,
+    /// The next or previous mode of the pyramid's cells.
+    Mode,
+    /// Explain the selected strategy, or no more.
+    Why,
     /// Focus on the selected pixel, or on the one clicked next.
     Focus,
     /// The list of keys.
@@ -72,6 +77,8 @@ pub const TABLE: &[Binding] = &[
     Binding { action: Action::Strategy, shown: "1 … 9", text: Text::KeyStrategy, keys: DIGITS, shift: false },
     Binding { action: Action::Vertex, shown: "Space, Shift+Space", text: Text::KeyVertex, keys: &[Key::Space], shift: true },
     Binding { action: Action::Hide, shown: "H", text: Text::KeyHide, keys: &[Key::H], shift: false },
+    Binding { action: Action::Mode, shown: "M, Shift+M", text: Text::KeyMode, keys: &[Key::M], shift: true },
+    Binding { action: Action::Why, shown: "Y", text: Text::KeyWhy, keys: &[Key::Y], shift: false },
     Binding { action: Action::Focus, shown: "G, Shift+G", text: Text::KeyFocus, keys: &[Key::G], shift: true },
     Binding { action: Action::Exposure, shown: "E, Shift+E", text: Text::KeyExposure, keys: &[Key::E], shift: true },
     Binding { action: Action::Offset, shown: "O, Shift+O", text: Text::KeyOffset, keys: &[Key::O], shift: true },
@@ -177,6 +184,12 @@ pub fn perform(state: &mut State, action: Action, index: usize, shift: bool) {
             let strategy = state.selection.strategy;
             state.hidden.set(strategy, !state.hidden.contains(strategy));
         }
+        Action::Mode => {
+            let (all, now) = (Mode::ALL, state.study.mode);
+            let at = all.iter().position(|mode| *mode == now).unwrap_or(0);
+            state.study.mode = all[(at + if shift { all.len() - 1 } else { 1 }) % all.len()];
+        }
+        Action::Why => state.study.why = !state.study.why,
         Action::Focus if shift => state.picking_focus = !state.picking_focus,
         Action::Focus => (state.picking_focus, state.focus_on) = (false, Some(state.selection.pixel)),
         Action::Help => state.help = !state.help,

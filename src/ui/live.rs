@@ -3,11 +3,12 @@
 
 use super::loader::{Failure, Loader};
 use super::state::{Opening, State};
+use super::study;
 use super::text::{Text, fill};
 use super::wake::Wake;
 use crate::bdpt::record::StrategyRecord;
 use crate::bdpt::{Existence, PathRecord};
-use crate::engine::{self, Engine, Frame, Job};
+use crate::engine::{self, Engine, Frame, Job, Study};
 use crate::scene::{Lens, Scene, builtin};
 use std::sync::Arc;
 use std::time::Duration;
@@ -115,6 +116,7 @@ impl Live {
             if engine.paused() != state.paused {
                 engine.set_paused(state.paused);
             }
+            engine.set_wish(study::wish(state, self.frame.as_deref()));
         }
         let new_record = self.sync_record(state);
         loaded || restarted || new_frame || new_record
@@ -168,6 +170,11 @@ impl Live {
     /// The newest frame of the current rendering.
     pub fn frame(&self) -> Option<&Arc<Frame>> {
         self.frame.as_ref()
+    }
+
+    /// What was counted about the strategies of the current rendering, as far as it was wished for.
+    pub fn study(&self) -> Option<Arc<Study>> {
+        self.engine.as_ref()?.study()
     }
 
     /// Counts frames, so that a picture knows whether it is out of date.

@@ -7,14 +7,19 @@ use super::live::Live;
 use super::pictures::Pictures;
 use super::slot;
 use super::state::{Gain, Maximised, State};
-use super::text::{Text, fill};
+use super::study;
+use super::text::{StudyText, Text, fill};
 use super::widgets::{keep_together, role_help, role_name};
 use crate::bdpt::{Existence, Role, Strategy, StrategySet};
-use eframe::egui::{self, Button, RichText, ScrollArea, Slider, Ui, vec2};
+use crate::engine::{Frame, Mode, Study};
+use eframe::egui::{self, Button, Panel, RichText, ScrollArea, Slider, Ui, vec2};
+use std::sync::Arc;
 
 const FAMILIES: [Role; 5] = [Role::EyeHitsLight, Role::NextEvent, Role::Connect, Role::LightTracer, Role::LightHitsLens];
 const ROW_HEAD: f32 = 108.0;
 const GAP: f32 = 6.0;
+/// Width of the card that says why, points.
+const WHY: f32 = 350.0;
 /// Length of the slider for the cells' size.
 const SLIDER: f32 = 70.0;
 
@@ -27,9 +32,16 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
         ui.separator();
         families(ui, state, &existence);
         ui.separator();
+        study::toolbar::choice(ui, state);
         brightness(ui, state);
+        study::toolbar::progress(ui, state, live);
     });
     ui.add_space(2.0);
+    if state.study.why {
+        let room = ui.available_width();
+        let card = Panel::right("why").resizable(true).default_size(WHY.min(0.5 * room));
+        card.size_range(180.0..=(0.7 * room).max(180.0)).show(ui, |ui| study::why::show(ui, state, live));
+    }
     let size = cell::size(state);
     ScrollArea::both().id_salt("pyramid").auto_shrink(false).show(ui, |ui| {
         ui.spacing_mut().item_spacing = vec2(GAP, GAP);
@@ -137,9 +149,9 @@ fn row_head(ui: &mut Ui, state: &mut State, live: &Live, edges: u32, height: f32
         ui.set_width(ROW_HEAD);
         ui.spacing_mut().item_spacing = vec2(4.0, 3.0);
         ui.label(RichText::new(format!("k = {edges}")).strong()).on_hover_text(state.say(Text::HelpRow));
-        let counted = live.frame().filter(|_| live.first_pass().is_none());
-        let share = counted.map(|frame| frame.thumbnails.iter().filter(|x| x.strategy.edges() == edges).map(|x| x.share).sum::<f64>());
-        ui.label(RichText::new(share.map_or("–".to_owned(), format::percent)).small().weak()).on_hover_text(state.say(Text::HelpShare));
+        if let Some((share, help)) = row_share(state, live, edges) {
+            ui.label(RichText::new(share.map_or("–".to_owned(), format::percent)).small().weak()).on_hover_text(help);
+        }
         let existence = live.existence();
         let visible = row(edges).any(|x| existence.absence(x).is_none() && !state.hidden.contains(x));
         let name = state.say(if visible { Text::HideRow } else { Text::ShowRow });
@@ -158,6 +170,25 @@ fn row_head(ui: &mut Ui, state: &mut State, live: &Live, edges: u32, height: f32
             }
         });
     });
+}
+
+/// The share of a row, in the modes in which shares add up, and of what it is one.
+fn row_share(state: &State, live: &Live, edges: u32) -> Option<(Option<f64>, String)> {
+    match state.study.mode {
+        Mode::Weighted => {
+            let counted = live.frame().filter(|_| live.first_pass().is_none());
+            let in_row = |frame: &Arc<Frame>| frame.thumbnails.iter().filter(|x| x.strategy.edges() == edges).map(|x| x.share).sum();
+            Some((counted.map(in_row), state.say(Text::HelpShare).to_owned()))
+        }
+        Mode::Variance => {
+            let study = study::current(state, live);
+            let in_row = |study: Arc<Study>| study.cells.iter().filter(|x| x.strategy.edges() == edges).filter_map(|x| x.share).sum();
+            let share: Option<f64> = study.map(in_row);
+            let words = share.map_or("–".to_owned(), format::percent);
+            Some((share, fill(state.say(StudyText::ShareVariance), &[&words])))
+        }
+        _ => None,
+    }
 }
 
 fn named(label: String) -> egui::WidgetInfo {

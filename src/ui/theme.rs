@@ -23,6 +23,9 @@ pub fn bar(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { Color32::from_rgb(0x56, 0xB4, 0xE9) } else { EYE }
 }
 
+/// The filled part of a share's bar over a picture, in both themes.
+pub const SHARE: Color32 = Color32::from_rgb(0x56, 0xB4, 0xE9);
+
 /// The background behind images: neutral, so that it does not colour them.
 pub fn backdrop(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { Color32::from_gray(0x12) } else { Color32::from_gray(0xc9) }

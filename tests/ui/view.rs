@@ -232,7 +232,7 @@ fn a_cell_opens_in_large_and_escape_returns() {
     window.run_steps(3);
     assert_eq!(window.state().state().compare.a, Source::Strategy(strategy, Mode::Weighted));
     still(&mut window);
-    assert!(has(&window, "connect 2+2 (2,2), weighted"), "the view says what it shows");
+    assert!(has(&window, "connect 2+2 (2,2), weighted C"), "the view says what it shows");
     let source = engine::Source::Strategy(strategy, Mode::Weighted);
     until(&mut window, "its picture", |app| app.live().engine().expect("an engine").picture(source).is_some());
     window.run_steps(3);

@@ -17,15 +17,6 @@ use eframe::egui::{Button, ComboBox, Key, Label, PopupCloseBehavior, RichText, R
 /// Width of a path's field, points.
 const FIELD: f32 = 240.0;
 
-/// What of a strategy can be shown, with a sentence about it.
-pub const MODES: [(engine::Mode, ViewText); 5] = [
-    (engine::Mode::Weighted, ViewText::HelpModeWeighted),
-    (engine::Mode::Raw, ViewText::HelpModeRaw),
-    (engine::Mode::Weight, ViewText::HelpModeWeight),
-    (engine::Mode::Count, ViewText::HelpModeCount),
-    (engine::Mode::Variance, ViewText::HelpModeVariance),
-];
-
 /// A metric's formula.
 pub fn metric_text(metric: Metric) -> ViewText {
     match metric {
@@ -86,7 +77,7 @@ pub fn choose(ui: &mut Ui, state: &State, live: &Live, (label, help, current): (
         if takes_part(state, live, selected) {
             let source = Source::Strategy(selected, engine::Mode::Weighted);
             let words = fill(state.say(ViewText::SelectedStrategy), &[&full_name(selected, state.prefs.lang)]);
-            row(ui, source, &words, state.say(ViewText::HelpModeWeighted));
+            row(ui, source, &words, &words);
         }
         for kept in state.compare.kept.iter().rev() {
             let source = Source::Kept(kept.id);

@@ -5,9 +5,9 @@ mod bar;
 mod keeper;
 mod source;
 
-pub use bar::{MODES, choose, metric_text, show, takes_part};
+pub use bar::{choose, metric_text, show, takes_part};
 pub use keeper::Keeper;
-pub use source::{Content, Missing, Scale, Source, Sourced, mode_text, name, samples, short_name};
+pub use source::{Content, Missing, Source, Sourced, name, samples, short_name};
 
 use source::find;
 

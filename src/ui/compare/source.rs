@@ -3,12 +3,14 @@
 use super::super::format;
 use super::super::live::Live;
 use super::super::state::State;
+use super::super::study::mode_texts;
 use super::super::text::{Lang, Text, ViewText, fill};
 use super::super::widgets::full_name;
 use super::{About, Kept, Rendered};
 use crate::bdpt::{HeuristicKind, Settings, Strategy, StrategySet};
 use crate::engine::{self, Frame, Mode, Values};
 use crate::film::picture::{Picture, pixel_of};
+use crate::film::scale::Scale;
 use crate::math::Vec3;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -82,41 +84,9 @@ impl Content {
         if mode.is_colour() {
             return None;
         }
-        let high = picture.range.map_or(1.0, |range| range[1]).max(f32::MIN_POSITIVE);
-        Some(match mode {
-            Mode::Weight => Scale::Linear(1.0),
-            Mode::Variance => Scale::Logarithmic(high),
-            _ => Scale::Linear(high),
-        })
-    }
-}
-
-/// How numbers become false colours.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Scale {
-    /// From 0 to this.
-    Linear(f32),
-    /// The twelve stops below this.
-    Logarithmic(f32),
-}
-
-/// Stops of a logarithmic scale.
-const STOPS: f32 = 12.0;
-
-impl Scale {
-    /// Where a number lies, 0…1.
-    pub fn place(self, value: f32) -> f32 {
-        match self {
-            Self::Linear(high) => value / high,
-            Self::Logarithmic(high) => 1.0 + (value / high).log2() / STOPS,
-        }
-    }
-
-    /// The number at a place.
-    pub fn at(self, place: f32) -> f32 {
-        match self {
-            Self::Linear(high) => place * high,
-            Self::Logarithmic(high) => high * ((place - 1.0) * STOPS).exp2(),
+        match mode {
+            Mode::Weight => Some(Scale::linear([0.0, 1.0])),
+            _ => Some(picture.range.and_then(Scale::logarithmic).unwrap_or(Scale::linear([0.0, 1.0]))),
         }
     }
 }
@@ -171,22 +141,16 @@ pub fn find(state: &State, live: &Live, source: Source) -> Result<Sourced, Missi
     }
 }
 
-/// The texts of a mode of the strategies' pictures.
-pub fn mode_text(mode: Mode) -> ViewText {
-    match mode {
-        Mode::Weighted => ViewText::ModeWeighted,
-        Mode::Raw => ViewText::ModeRaw,
-        Mode::Weight => ViewText::ModeWeight,
-        Mode::Count => ViewText::ModeCount,
-        Mode::Variance => ViewText::ModeVariance,
-    }
+/// A mode's name.
+fn mode_name(mode: Mode, lang: Lang) -> &'static str {
+    mode_texts(mode)[0].in_language(lang)
 }
 
 /// A few words: "image", "(2,2) weighted", "kept 3".
 pub fn short_name(state: &State, source: Source) -> String {
     match source {
         Source::Image => state.say(ViewText::TheImage).to_owned(),
-        Source::Strategy(strategy, mode) => format!("({},{}) {}", strategy.s, strategy.t, state.say(mode_text(mode))),
+        Source::Strategy(strategy, mode) => format!("({},{}) {}", strategy.s, strategy.t, mode_name(mode, state.prefs.lang)),
         Source::Kept(id) => match state.compare.kept.iter().find(|kept| kept.id == id) {
             Some(Kept { about: About::File(name), .. }) => name.clone(),
             _ => fill(state.say(ViewText::KeptNumber), &[&id.to_string()]),
@@ -197,7 +161,7 @@ pub fn short_name(state: &State, source: Source) -> String {
 /// All there is to say: which picture, by which estimator, of how many samples in which time.
 pub fn name(state: &State, live: &Live, source: Source) -> String {
     let what = match source {
-        Source::Strategy(strategy, mode) => format!("{}, {}", full_name(strategy, state.prefs.lang), state.say(mode_text(mode))),
+        Source::Strategy(strategy, mode) => format!("{}, {}", full_name(strategy, state.prefs.lang), mode_name(mode, state.prefs.lang)),
         _ => short_name(state, source),
     };
     match rendered(state, live, source) {
@@ -230,7 +194,7 @@ pub fn rendered(state: &State, live: &Live, source: Source) -> Option<Rendered> 
 fn describe(rendered: &Rendered, shown: Source, lang: Lang) -> String {
     let mut words = Vec::new();
     if let (Source::Kept(_), Source::Strategy(strategy, mode)) = (shown, rendered.source) {
-        words.push(format!("({},{}) {}", strategy.s, strategy.t, mode_text(mode).in_language(lang)));
+        words.push(format!("({},{}) {}", strategy.s, strategy.t, mode_name(mode, lang)));
     }
     words.push(integrator(&rendered.settings.strategies, lang).to_owned());
     words.push(heuristic(&rendered.settings, lang));
@@ -283,18 +247,6 @@ mod tests {
         rendered.settings.heuristic.kind = HeuristicKind::Balance;
         (rendered.hidden, rendered.spp) = (2, 1.25);
         rendered.source = Source::Strategy(Strategy::new(1, 2), Mode::Raw);
-        assert_eq!(describe(&rendered, Source::Kept(1), Lang::En), "(1,2) raw · PT · balance · 2 hidden · 1.2 spp, 3.21 s");
-    }
-
-    #[test]
-    fn scales_have_ends() {
-        for scale in [Scale::Linear(8.0), Scale::Logarithmic(8.0)] {
-            assert_eq!((scale.place(8.0), scale.at(1.0)), (1.0, 8.0));
-            for value in [0.1, 1.0, 5.0] {
-                assert!((scale.at(scale.place(value)) - value).abs() < 1e-4);
-            }
-        }
-        assert_eq!(Scale::Linear(8.0).place(0.0), 0.0);
-        assert_eq!(Scale::Logarithmic(8.0).place(0.0), f32::NEG_INFINITY, "viridis brings it in");
+        assert_eq!(describe(&rendered, Source::Kept(1), Lang::En), "(1,2) unweighted C* · PT · balance · 2 hidden · 1.2 spp, 3.21 s");
     }
 }

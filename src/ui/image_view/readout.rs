@@ -4,6 +4,7 @@ use super::super::format;
 use super::super::keys::{self, Action};
 use super::super::live::Live;
 use super::super::state::State;
+use super::super::study;
 use super::super::text::{Text, ViewText, fill};
 use super::super::widgets::{keep_together, labelled};
 use crate::bdpt::PathRecord;
@@ -22,7 +23,8 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     state.select_pixel(i64::from(x), i64::from(y));
     if let Some((samples, mean)) = mean(state, live) {
         let name = fill(state.say(ViewText::MeanOf), &[&samples]);
-        number(ui, &name, &mean, state.say(ViewText::HelpMean));
+        let (interval, about) = live.frame().map(|frame| study::interval::words(state, frame)).unwrap_or_default();
+        number(ui, &name, &format!("{mean}  {interval}"), &format!("{}\n{about}", state.say(ViewText::HelpMean)));
     }
     if let Some(record) = live.record(state) {
         let name = fill(state.say(ViewText::SampleAlone), &[&record.sample.to_string()]);

@@ -1,11 +1,12 @@
 //! The scale beside a picture in false colours: which colour is which number.
 
-use super::super::compare::{Display, Pair, Scale};
+use super::super::compare::{Display, Pair};
 use super::super::darkroom::Recipe;
 use super::super::format;
 use super::super::state::State;
 use crate::film::colourmap::{BOTTOM, TOP, signed, viridis};
 use crate::film::difference::Metric;
+use crate::film::scale::Scale;
 use crate::film::tonemap::ToneMap;
 use eframe::egui::{Align2, Color32, CornerRadius, FontId, Mesh, Rect, Shape, StrokeKind, Ui, pos2, vec2};
 
@@ -75,7 +76,7 @@ fn luminance(exposure_ev: f32, offset: f32) -> Drawn {
 }
 
 fn numbers(scale: Scale) -> Drawn {
-    Drawn { colour: viridis, ticks: ticks(|place| scale.at(place)) }
+    Drawn { colour: viridis, ticks: ticks(|place| scale.value(place)) }
 }
 
 fn difference(state: &State) -> Drawn {

@@ -4,6 +4,7 @@ use super::super::compare::{self, Pair, Source};
 use super::super::keys::{self, Action};
 use super::super::live::Live;
 use super::super::state::{Maximised, Placement, State};
+use super::super::study::mode_texts;
 use super::super::text::{Text, ViewText};
 use super::super::widgets::{keep_together, labelled};
 use crate::engine::Mode;
@@ -62,10 +63,11 @@ fn source(ui: &mut Ui, state: &mut State, live: &Live) {
     }
     if let Source::Strategy(strategy, mode) = state.compare.a {
         let help = state.say(ViewText::HelpOpenLarge);
-        let combo = ComboBox::from_id_salt("mode of the picture").selected_text(state.say(compare::mode_text(mode))).width(70.0);
+        let combo = ComboBox::from_id_salt("mode of the picture").selected_text(state.say(mode_texts(mode)[0])).width(70.0);
         let response = combo.show_ui(ui, |ui| {
-            for (other, help) in compare::MODES {
-                if ui.selectable_label(other == mode, state.say(compare::mode_text(other))).on_hover_text(state.say(help)).clicked() {
+            for other in Mode::ALL {
+                let [name, help] = mode_texts(other);
+                if ui.selectable_label(other == mode, state.say(name)).on_hover_text(state.say(help)).clicked() {
                     state.compare.a = Source::Strategy(strategy, other);
                 }
             }
@@ -74,7 +76,7 @@ fn source(ui: &mut Ui, state: &mut State, live: &Live) {
         response.response.widget_info(|| eframe::egui::WidgetInfo::labeled(eframe::egui::Role::ComboBox, true, name));
         response.response.on_hover_text(help);
     } else {
-        let selected = Source::Strategy(state.selection.strategy, Mode::Weighted);
+        let selected = Source::Strategy(state.selection.strategy, state.study.mode);
         let there = compare::takes_part(state, live, state.selection.strategy);
         let button = ui.add_enabled(there, Button::new(state.say(ViewText::OpenLarge)));
         if button.on_hover_text(state.say(ViewText::HelpOpenLarge)).on_disabled_hover_text(state.say(ViewText::NotThere)).clicked() {

@@ -309,6 +309,8 @@ texts! { Text;
     KeyStrategy: "Strategies of the current path length", "当前路径长度的各个策略";
     KeyVertex: "Next vertex of the selected path, previous vertex", "所选路径的下一个顶点，上一个顶点";
     KeyHide: "Hide or show the selected strategy", "隐藏或显示所选策略";
+    KeyMode: "Next mode of the pyramid's cells, previous mode", "策略金字塔显示内容：下一种，上一种";
+    KeyWhy: "Explain why the selected strategy is black or bright", "说明所选策略为何是黑的或亮的";
     KeyFocus: "Focus on the selected pixel; with Shift on the next click", "对焦到所选像素；按住 Shift 则对焦到下一次点击处";
     KeyExposure: "Exposure up, down by half a stop", "曝光增加、减少半档";
     KeyFit: "Fit the image to its panel", "让图像适应面板";
