@@ -6,6 +6,7 @@ use super::scene::SceneBuffers;
 use super::tiles::{Need, Tiles};
 use super::{Gpu, GpuError, HEADER};
 use crate::bdpt::Vertex;
+use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Most batches in a submission.
@@ -80,9 +81,31 @@ impl Memory {
 
     /// Reads the first `size` bytes of a buffer, which are zero from then on.
     pub async fn take<T>(&self, gpu: &Gpu, buffer: &wgpu::Buffer, size: u64, look: impl FnOnce(&[u8]) -> T) -> Result<T, GpuError> {
+        self.read(gpu, (buffer, 0..size, true), look).await
+    }
+
+    /// Reads a part of a buffer no longer than [`Memory::staging_size`], which stays as it is.
+    pub async fn look<T>(&self, gpu: &Gpu, buffer: &wgpu::Buffer, part: Range<u64>, look: impl FnOnce(&[u8]) -> T) -> Result<T, GpuError> {
+        self.read(gpu, (buffer, part, false), look).await
+    }
+
+    /// Most bytes that are read at once.
+    pub fn staging_size(&self) -> u64 {
+        self.staging.size()
+    }
+
+    async fn read<T>(
+        &self,
+        gpu: &Gpu,
+        (buffer, part, clear): (&wgpu::Buffer, Range<u64>, bool),
+        look: impl FnOnce(&[u8]) -> T,
+    ) -> Result<T, GpuError> {
+        let size = part.end - part.start;
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.copy_buffer_to_buffer(buffer, 0, &self.staging, 0, size);
-        encoder.clear_buffer(buffer, 0, Some(size));
+        encoder.copy_buffer_to_buffer(buffer, part.start, &self.staging, 0, size);
+        if clear {
+            encoder.clear_buffer(buffer, part.start, Some(size));
+        }
         gpu.queue.submit([encoder.finish()]);
         let mapped = Arc::new(Mutex::new(None));
         let result = Arc::clone(&mapped);

@@ -1,7 +1,6 @@
 //! The program's window: the layout of its panels, and the passes in which they are shown.
 
-use super::compare::Keeper;
-use super::darkroom::Darkroom;
+use super::image_view::Desk;
 use super::live::{Live, SceneSource};
 use super::pictures::Pictures;
 use super::state::{Maximised, Opening, Preferences, State};
@@ -32,8 +31,7 @@ pub struct App {
     live: Live,
     wake: Wake,
     pictures: Pictures,
-    keeper: Keeper,
-    darkroom: Darkroom,
+    desk: Desk,
     image: Rect,
     ui_ms: f32,
 }
@@ -49,10 +47,9 @@ impl App {
         Self {
             state: State::new(preferences.unwrap_or_default(), start.size),
             live,
-            keeper: Keeper::new(&wake),
+            desk: Desk::new(ctx, &wake),
             wake,
             pictures: Pictures::new(ctx),
-            darkroom: Darkroom::new(ctx),
             image: Rect::NOTHING,
             ui_ms: 0.0,
         }
@@ -66,7 +63,7 @@ impl App {
         let data = old.data(Clone::clone);
         ctx.data_mut(|new| *new = data);
         self.pictures = Pictures::new(ctx);
-        self.darkroom = Darkroom::new(ctx);
+        self.desk.move_to(ctx);
     }
 
     /// What a person chose.
@@ -93,13 +90,13 @@ impl App {
 
     fn sync(&mut self, ctx: &egui::Context) {
         let shown = self.live.sync(&mut self.state);
-        if self.keeper.sync(&mut self.state, &self.live) || shown {
+        if self.desk.sync(&mut self.state, &self.live) || shown {
             ctx.request_repaint();
         }
     }
 
     fn panels(&mut self, ui: &mut Ui) {
-        let Self { state, live, pictures, darkroom, .. } = self;
+        let Self { state, live, pictures, desk, .. } = self;
         let bar = |top: i8| Frame::side_top_panel(ui.style()).inner_margin(Margin { left: 10, right: 10, top, bottom: top });
         let (wide, slim) = (bar(6), bar(3));
         Panel::top("top bar").frame(wide).show(ui, |ui| top_bar::show(ui, state, live));
@@ -134,7 +131,7 @@ impl App {
                 }
             }
         }
-        self.image = whole.show(ui, |ui| image_view::show(ui, state, live, darkroom)).inner;
+        self.image = whole.show(ui, |ui| image_view::show(ui, state, live, desk)).inner;
     }
 
     /// Files dropped on the window, and the invitation to drop them.
@@ -172,7 +169,7 @@ impl eframe::App for App {
         let start = Instant::now();
         keys::obey(ui.ctx(), &mut self.state, image_view::id());
         self.pictures.collect(ui.ctx());
-        self.darkroom.collect(ui.ctx());
+        self.desk.darkroom.collect(ui.ctx());
         self.drops(ui);
         self.panels(ui);
         help::show(ui.ctx(), &mut self.state);

@@ -1,6 +1,7 @@
 //! The progressive image, or what else is shown in its place: zoom around the cursor, pan, pick a pixel, crosshair, exact
 //! values in large pixels, and two pictures compared. A click is a press and release without a drag.
 
+mod desk;
 mod digits;
 mod navigate;
 mod plates;
@@ -10,6 +11,8 @@ mod toolbar;
 
 use super::camera_bar;
 use super::compare::{self, Display, Missing, Pair, Sourced};
+pub use desk::{Desk, Replayed};
+
 use super::darkroom::{Darkroom, Place, Print};
 use super::live::Live;
 use super::overlay;
@@ -48,7 +51,9 @@ pub fn id() -> egui::Id {
 }
 
 /// Shows the toolbars and the image. Returns where the film is on the screen.
-pub fn show(ui: &mut Ui, state: &mut State, live: &Live, darkroom: &mut Darkroom) -> Rect {
+pub fn show(ui: &mut Ui, state: &mut State, live: &Live, desk: &mut Desk) -> Rect {
+    let replayed = desk.replayed(state, live);
+    let darkroom = &mut desk.darkroom;
     ui.horizontal_wrapped(|ui| toolbar::show(ui, state, live));
     if state.compare.open {
         let figures = darkroom.difference(state, &Pair::find(state, live)).and_then(|print| print.figures);
@@ -57,7 +62,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, darkroom: &mut Darkroom
     if state.prefs.camera_open {
         camera_bar::show(ui, state, live);
     }
-    ui.horizontal_wrapped(|ui| readout::show(ui, state, live));
+    ui.horizontal_wrapped(|ui| readout::show(ui, state, live, &replayed));
     lost_paths(ui, state, live);
     ui.add_space(2.0);
     let panel = ui.available_rect_before_wrap();

@@ -6,14 +6,15 @@ use super::super::live::Live;
 use super::super::state::State;
 use super::super::study;
 use super::super::text::{Text, ViewText, fill};
-use super::super::widgets::{keep_together, labelled};
+use super::super::widgets::{full_name, keep_together, labelled};
+use super::Replayed;
 use crate::bdpt::PathRecord;
 use crate::film::picture::pixel_of;
 use crate::math::Vec3;
 use eframe::egui::{DragValue, RichText, Ui};
 
 /// Shows it.
-pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
+pub fn show(ui: &mut Ui, state: &mut State, live: &Live, replayed: &Replayed) {
     let [mut x, mut y] = state.selection.pixel;
     let [width, height] = state.size;
     let hint = keys::hint(state, Text::HelpPixel, Action::Nudge);
@@ -29,8 +30,36 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     if let Some(record) = live.record(state) {
         let name = fill(state.say(ViewText::SampleAlone), &[&record.sample.to_string()]);
         let value = written(on_its_pixel(record, state));
-        number(ui, &name, &value, state.say(ViewText::HelpSampleAlone));
+        let mut help = state.say(ViewText::HelpSampleAlone).to_owned();
+        if *replayed == Replayed::NotOnGpu {
+            help = format!("{help}\n{}", state.say(ViewText::NotOnGpu));
+        }
+        number(ui, &name, &value, &help);
+        badge(ui, state, replayed);
     }
+}
+
+/// Whether the sample shown is the one that the GPU rendered. Nothing where there is nothing to doubt; the tooltips say why.
+fn badge(ui: &mut Ui, state: &State, replayed: &Replayed) {
+    let (text, colour, help) = match replayed {
+        Replayed::NotOnGpu => return,
+        Replayed::Waiting => (ViewText::Replaying, ui.visuals().weak_text_color(), state.say(ViewText::HelpReplaying).to_owned()),
+        Replayed::Known(Err(reason)) => {
+            (ViewText::Replaying, ui.visuals().warn_fg_color, fill(state.say(ViewText::NotReplayed), &[reason]))
+        }
+        Replayed::Known(Ok(compared)) if compared.diverged() => {
+            let values = [compared.gpu, compared.cpu].map(|value| format::rgb(value.to_array()));
+            let name = full_name(compared.strategy, state.prefs.lang);
+            (ViewText::Diverged, ui.visuals().warn_fg_color, fill(state.say(ViewText::HelpDiverged), &[&name, &values[0], &values[1]]))
+        }
+        Replayed::Known(Ok(compared)) => {
+            let error = format!("{:.0e}", compared.error.max(1e-7));
+            (ViewText::Replayed, ui.visuals().weak_text_color(), fill(state.say(ViewText::HelpReplayed), &[&error]))
+        }
+    };
+    let mark = if text == ViewText::Diverged { "⚠ " } else { "" };
+    keep_together(ui, 90.0);
+    ui.label(RichText::new(format!("{mark}{}", state.say(text))).small().color(colour)).on_hover_text(help);
 }
 
 /// A name and its value, on one line together.

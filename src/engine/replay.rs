@@ -1,0 +1,154 @@
+//! Is the sample that the inspector shows the one that the GPU rendered? The inspector re-runs it on the CPU; here it is run on
+//! the GPU once more, and both are compared, strategy by strategy.
+//!
+//! Both follow the same random numbers and round a little differently. Now and then a number falls on the other side of a
+//! threshold (an edge, a roulette, a choice), and the sample takes another turn: that is told.
+
+use super::device::{Prepared, prepare};
+use super::{Backend, Job, record};
+use crate::bdpt::PathRecord;
+use crate::bdpt::Strategy;
+use crate::gpu::{Probe, Task};
+use crate::math::Vec3;
+use pollster::block_on;
+use std::collections::BTreeMap;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Rounding alone stays below this part of a contribution (or of the sample's largest).
+pub const TOLERANCE: f32 = 0.01;
+/// A contribution below this part of the sample's largest says nothing.
+const NEGLIGIBLE: f32 = 1e-4;
+
+/// A sample: job's generation, pixel, number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Which {
+    /// [`super::Engine::generation`].
+    pub generation: u64,
+    /// From the top left.
+    pub pixel: [u32; 2],
+    /// Sample number.
+    pub sample: u32,
+}
+
+/// How the device's sample and its re-run compare.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Comparison {
+    /// The strategy in which they differ most.
+    pub strategy: Strategy,
+    /// Its contribution w C* on the GPU, radiance.
+    pub gpu: Vec3,
+    /// The same on the CPU.
+    pub cpu: Vec3,
+    /// Largest difference of a channel, as a part of the contribution.
+    pub error: f32,
+}
+
+impl Comparison {
+    /// Did the sample take another turn?
+    pub fn diverged(&self) -> bool {
+        self.error > TOLERANCE
+    }
+
+    /// Compares the contributions by the strategies' indices with a record.
+    pub fn of(gpu: &BTreeMap<usize, Vec3>, record: &PathRecord) -> Self {
+        let mut cpu: BTreeMap<usize, (Strategy, Vec3)> = BTreeMap::new();
+        for x in &record.strategies {
+            let entry = cpu.entry(x.strategy().index()).or_insert((x.strategy(), Vec3::ZERO));
+            if x.feasible {
+                entry.1 += Vec3::from(x.contribution);
+            }
+        }
+        let largest = gpu.values().chain(cpu.values().map(|(_, value)| value)).map(|v| v.max_element()).fold(0.0, f32::max);
+        let floor = (NEGLIGIBLE * largest).max(f32::MIN_POSITIVE);
+        let compare = |(index, (strategy, cpu)): (&usize, &(Strategy, Vec3))| {
+            let gpu = gpu.get(index).copied().unwrap_or(Vec3::ZERO);
+            let error = (gpu - *cpu).abs().max_element() / gpu.max(*cpu).max_element().max(floor);
+            Self { strategy: *strategy, gpu, cpu: *cpu, error: if error.is_finite() { error } else { f32::INFINITY } }
+        };
+        let none = Self { strategy: Strategy::new(1, 2), gpu: Vec3::ZERO, cpu: Vec3::ZERO, error: 0.0 };
+        cpu.iter().map(compare).max_by(|a, b| a.error.total_cmp(&b.error)).unwrap_or(none)
+    }
+}
+
+/// What is known about a sample.
+pub type Answer = Result<Comparison, String>;
+
+/// Compares samples on a thread of its own, one at a time: what is asked for last is what counts.
+pub struct Replayer {
+    asked: Option<Which>,
+    questions: Sender<(Which, Job)>,
+    answer: Arc<Mutex<Option<(Which, Answer)>>>,
+}
+
+impl Replayer {
+    /// Starts the thread; it ends with this value. `wake` is called when there is an answer.
+    pub fn new(wake: impl Fn() + Send + 'static) -> Self {
+        let (questions, inbox) = channel();
+        let answer = Arc::new(Mutex::new(None));
+        let found = Arc::clone(&answer);
+        // Without a thread no question is ever answered.
+        drop(std::thread::Builder::new().name("replay".to_owned()).spawn(move || {
+            let mut prober = Prober::default();
+            while let Some((which, job)) = last(&inbox) {
+                let answer = prober.compare(which, &job);
+                *found.lock().unwrap_or_else(PoisonError::into_inner) = Some((which, answer));
+                wake();
+            }
+        }));
+        Self { asked: None, questions, answer }
+    }
+
+    /// Asks about a sample of a job, once.
+    pub fn ask(&mut self, which: Which, job: &Job) {
+        if self.asked != Some(which) && self.questions.send((which, job.clone())).is_ok() {
+            self.asked = Some(which);
+        }
+    }
+
+    /// The answer about a sample, if it is there.
+    pub fn answer(&self, which: Which) -> Option<Answer> {
+        let answer = self.answer.lock().unwrap_or_else(PoisonError::into_inner);
+        answer.as_ref().filter(|(about, _)| *about == which).map(|(_, answer)| answer.clone())
+    }
+}
+
+/// Waits for a question; of several only the last one counts.
+fn last(inbox: &Receiver<(Which, Job)>) -> Option<(Which, Job)> {
+    let first = inbox.recv().ok()?;
+    Some(inbox.try_iter().last().unwrap_or(first))
+}
+
+/// A job on the device, kept from one sample to the next.
+#[derive(Default)]
+struct Prober {
+    probe: Option<(u64, Probe)>,
+}
+
+impl Prober {
+    fn compare(&mut self, which: Which, job: &Job) -> Answer {
+        let here = |(generation, probe): &(u64, Probe)| *generation == which.generation && probe.gpu().check().is_ok();
+        if !self.probe.as_ref().is_some_and(here) {
+            self.probe = Some((which.generation, open(job)?));
+        }
+        let Some((_, probe)) = &self.probe else { return Err("there is no device".to_owned()) };
+        let gpu = block_on(probe.sample(which.pixel, which.sample)).map_err(|error| error.to_string())?;
+        let record = record(job, which.pixel, which.sample).map_err(|error| error.0)?;
+        Ok(Comparison::of(&gpu, &record))
+    }
+}
+
+/// A job on the device.
+fn open(job: &Job) -> Result<Probe, String> {
+    // Whoever renders on a device has it opened and its kernels compiled: they come at once.
+    let prepared = prepare(&job.scene, job.backend == Backend::Gpu).recv().map_err(|_| "no device came".to_owned())?;
+    let (gpu, layouts, kernels) = match prepared {
+        Prepared::Kernels(ready) => *ready,
+        Prepared::Failed(error) => return Err(error.to_string()),
+        Prepared::Faster(_) => return Err("no device came".to_owned()),
+    };
+    let job = Job { weighted_layers: true, raw_layers: false, crop: None, ..job.clone() };
+    let (view, plan) = (job.view(), job.plan());
+    let task = Task { scene: &job.scene, view: &view, settings: &job.settings, plan: &plan, crop: crate::film::Rect::full(job.size) };
+    block_on(Probe::new(&gpu, &task, (layouts, kernels))).map_err(|error| error.to_string())
+}
