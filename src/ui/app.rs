@@ -5,7 +5,7 @@ use super::pictures::Pictures;
 use super::state::{Maximised, Opening, Preferences, State};
 use super::text::{Text, fill};
 use super::wake::Wake;
-use super::{help, image_view, inspector, keys, messages, pyramid, scene_menu, space, status_bar, theme, top_bar};
+use super::{fonts, help, image_view, inspector, keys, messages, pyramid, scene_menu, space, status_bar, theme, top_bar};
 use eframe::egui::{self, Align2, CentralPanel, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
 use web_time::Instant;
 
@@ -38,6 +38,7 @@ impl App {
     /// A window that shows `start`; nothing here needs a real one.
     pub fn new(start: Start, ctx: &egui::Context, storage: Option<&dyn eframe::Storage>) -> Self {
         let preferences: Option<Preferences> = storage.and_then(|storage| eframe::get_value(storage, PREFERENCES));
+        fonts::install(ctx);
         theme::install(ctx);
         let wake = Wake::new(ctx);
         let mut live = Live::new(&wake);
@@ -54,6 +55,7 @@ impl App {
 
     /// Goes on in another window. What is rendered goes on, too; only what the old window drew with is made anew.
     pub fn move_to(&mut self, ctx: &egui::Context) {
+        fonts::install(ctx);
         theme::install(ctx);
         let old = self.wake.move_to(ctx);
         // Widths of panels, positions of scroll bars.
@@ -156,7 +158,7 @@ impl App {
 
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
-        theme::choose(ctx, self.state.prefs.dark);
+        theme::choose(ctx, &self.state.prefs);
         self.sync(ctx);
     }
 

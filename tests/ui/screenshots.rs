@@ -10,7 +10,7 @@ use egui_kittest::wgpu::WgpuTestRenderer;
 /// The window drawn by an adapter, with fonts for Chinese where the machine has them.
 fn drawn(scene: Arc<Scene>, size: [f32; 2]) -> Harness<'static, App> {
     let start = Start { source: SceneSource::Ready(scene), size: [256, 256] };
-    Harness::builder().with_size(egui::Vec2::from(size)).allow_missing_glyphs().renderer(WgpuTestRenderer::new()).build_eframe(|context| {
+    Harness::builder().with_size(egui::Vec2::from(size)).renderer(WgpuTestRenderer::new()).build_eframe(|context| {
         let fonts = egui_system_font_provider::SystemFontProvider::new().with_locale(Some("zh-Hans"));
         context.egui_ctx.add_font_provider(Arc::new(fonts));
         App::new(start, &context.egui_ctx, None)
