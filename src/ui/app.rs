@@ -6,7 +6,7 @@ use super::state::{Maximised, Opening, Preferences, State};
 use super::text::{Text, fill};
 use super::wake::Wake;
 use super::{fonts, help, image_view, inspector, keys, messages, pyramid, scene_menu, space, status_bar, theme, top_bar};
-use eframe::egui::{self, Align2, CentralPanel, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
+use eframe::egui::{self, Align2, CentralPanel, Color32, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
 use web_time::Instant;
 
 /// What the other panels leave to the image with its toolbar, points.
@@ -94,14 +94,17 @@ impl App {
 
     fn panels(&mut self, ui: &mut Ui) {
         let Self { state, live, pictures, .. } = self;
-        let bar = |top: i8| Frame::side_top_panel(ui.style()).inner_margin(Margin { left: 10, right: 10, top, bottom: top });
+        // The window is cleared to the panels' ground: painting it once more would cost a software adapter a whole frame's time.
+        let bar = |top: i8| {
+            Frame::side_top_panel(ui.style()).fill(Color32::TRANSPARENT).inner_margin(Margin { left: 10, right: 10, top, bottom: top })
+        };
         let (wide, slim) = (bar(6), bar(3));
         Panel::top("top bar").frame(wide).show(ui, |ui| top_bar::show(ui, state, live));
         if !state.messages.is_empty() {
             Panel::top("messages").frame(slim).show(ui, |ui| messages::show(ui, state));
         }
         Panel::bottom("status bar").frame(slim).show(ui, |ui| status_bar::show(ui, state, live, self.ui_ms));
-        let body = Frame::central_panel(ui.style()).inner_margin(Margin::symmetric(10, 8));
+        let body = Frame::central_panel(ui.style()).fill(Color32::TRANSPARENT).inner_margin(Margin::symmetric(10, 8));
         let whole = CentralPanel::default().frame(body);
         match state.maximised {
             Maximised::Pyramid => return drop(whole.show(ui, |ui| pyramid::show(ui, state, live, pictures))),
@@ -175,6 +178,10 @@ impl eframe::App for App {
         self.sync(&ctx);
         // Smoothed, so that it can be read.
         self.ui_ms += 0.1 * (start.elapsed().as_secs_f32() * 1e3 - self.ui_ms);
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {

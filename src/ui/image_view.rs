@@ -9,7 +9,7 @@ use super::projection::Projector;
 use super::state::{Maximised, Placement, State};
 use super::text::{Text, fill};
 use super::theme;
-use super::widgets::labelled;
+use super::widgets::{labelled, surround};
 use crate::film::tonemap::ToneMap;
 use eframe::egui::{
     self, Button, Color32, ComboBox, CornerRadius, DragValue, Label, Pos2, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui,
@@ -35,13 +35,14 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
     let image = navigate(ui, state, &response, panel);
     name(ui, state, &response);
     let painter = ui.painter().with_clip_rect(panel);
-    painter.rect_filled(panel, CornerRadius::ZERO, theme::backdrop(ui.visuals()));
     let texture = live.frame().and_then(|frame| pictures.texture(state, frame, live.frame_number(), None));
     match texture {
         Some(texture) => {
+            surround(&painter, panel, image, theme::backdrop(ui.visuals()));
             painter.image(texture, image, Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0)), Color32::WHITE);
         }
         None => {
+            painter.rect_filled(panel, CornerRadius::ZERO, theme::backdrop(ui.visuals()));
             let text = live.loading_text(state);
             painter.text(
                 panel.center(),

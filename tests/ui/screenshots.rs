@@ -24,7 +24,13 @@ fn picture(window: &mut Harness<'static, App>, name: &str) -> image::RgbaImage {
     window.run_steps(4);
     std::thread::sleep(Duration::from_millis(200));
     window.run_steps(4);
-    let image = window.render().expect("a picture of the window");
+    let mut image = window.render().expect("a picture of the window");
+    // A window is cleared to the panels' ground; the test's canvas is transparent.
+    let ground = window.ctx.global_style().visuals.panel_fill.to_array();
+    for pixel in image.pixels_mut() {
+        let [.., a] = pixel.0.map(u32::from);
+        pixel.0 = std::array::from_fn(|i| (u32::from(pixel.0[i]) + u32::from(ground[i]) * (255 - a) / 255).min(255) as u8);
+    }
     if let Ok(folder) = std::env::var("BDPT_SCREENSHOT_DIR") {
         image.save(std::path::Path::new(&folder).join(format!("{name}.png"))).expect("the folder can be written to");
     }
