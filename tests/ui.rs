@@ -23,8 +23,12 @@ mod glb;
 mod layout;
 #[path = "ui/lens.rs"]
 mod lens;
+#[path = "ui/looks.rs"]
+mod looks;
 #[path = "ui/measure.rs"]
 mod measure;
+#[path = "ui/random.rs"]
+mod random;
 #[path = "ui/renderer.rs"]
 mod renderer;
 #[path = "ui/scenes.rs"]
@@ -37,6 +41,8 @@ mod skip;
 mod surfaces;
 #[path = "ui/surroundings.rs"]
 mod surroundings;
+#[path = "ui/tour.rs"]
+mod tour;
 
 const SIZE: [u32; 2] = [64, 64];
 

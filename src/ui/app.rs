@@ -5,7 +5,7 @@ use super::pictures::Pictures;
 use super::state::{Maximised, Opening, Preferences, State};
 use super::text::{Text, fill};
 use super::wake::Wake;
-use super::{fonts, help, image_view, inspector, keys, messages, pyramid, scene_menu, space, status_bar, theme, top_bar};
+use super::{fonts, help, image_view, inspector, keys, messages, pyramid, scene_menu, space, status_bar, theme, top_bar, tour};
 use eframe::egui::{self, Align2, CentralPanel, Color32, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
 use web_time::Instant;
 
@@ -102,6 +102,9 @@ impl App {
         Panel::top("top bar").frame(wide).show(ui, |ui| top_bar::show(ui, state, live));
         if !state.messages.is_empty() {
             Panel::top("messages").frame(slim).show(ui, |ui| messages::show(ui, state));
+        }
+        if tour::is_open(state) {
+            Panel::top("tour").frame(slim).show(ui, |ui| tour::show(ui, state));
         }
         Panel::bottom("status bar").frame(slim).show(ui, |ui| status_bar::show(ui, state, live, self.ui_ms));
         let body = Frame::central_panel(ui.style()).fill(Color32::TRANSPARENT).inner_margin(Margin::symmetric(10, 8));

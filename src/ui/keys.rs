@@ -41,7 +41,8 @@ pub struct Binding {
     pub shown: &'static str,
     /// What it does, in words.
     pub text: Text,
-    keys: &'static [Key],
+    /// The same, as the system names them.
+    pub keys: &'static [Key],
     /// Does Shift turn it round (or enlarge the step)?
     shift: bool,
 }

@@ -2,7 +2,7 @@
 
 use super::render_menu::menu;
 use super::state::{Maximised, Preferences, State};
-use super::text::{Lang, LooksText, Text};
+use super::text::{Lang, LooksText, Text, TourText};
 use eframe::egui::Ui;
 use eframe::egui::containers::panel::PanelState;
 
@@ -34,6 +34,9 @@ pub fn show(ui: &mut Ui, state: &mut State) {
         ui.separator();
         if ui.button(LooksText::ResetLayout.in_language(lang)).on_hover_text(LooksText::HelpResetLayout.in_language(lang)).clicked() {
             reset_layout(ui, state);
+        }
+        if ui.button(TourText::Again.in_language(lang)).on_hover_text(TourText::HelpAgain.in_language(lang)).clicked() {
+            (state.prefs.tour, state.tour) = (0, None);
         }
     });
 }

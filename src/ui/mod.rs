@@ -42,6 +42,7 @@ mod study;
 pub mod text;
 mod theme;
 mod top_bar;
+mod tour;
 mod wake;
 #[cfg(not(target_arch = "wasm32"))]
 mod watch;

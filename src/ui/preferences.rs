@@ -80,6 +80,8 @@ pub struct Preferences {
     pub gain: Gain,
     /// Width of a cell of the pyramid, points.
     pub cell: f32,
+    /// The step of the tour that is shown next; beyond the last one there is none.
+    pub tour: usize,
     /// Page of the inspector.
     pub tab: Tab,
     /// Order of the strategies table.
@@ -106,6 +108,7 @@ impl Default for Preferences {
             shown: Shown { eye: true, light: true, connections: true, blocked: true, splats: true, names: true, legend: true },
             gain: Gain::Each,
             cell: 82.0,
+            tour: 0,
             tab: Tab::Strategies,
             sort: Sort::Length,
             inspector_open: true,

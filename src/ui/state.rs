@@ -7,6 +7,7 @@ pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};
 pub use super::space::SpaceState;
 pub use super::study::StudyState;
 use super::text::{Lang, Text, Words};
+pub use super::tour::Before;
 use crate::bdpt::{Existence, Settings, Strategy, StrategySet};
 use crate::film::tonemap::ToneMap;
 use crate::scene::Lens;
@@ -157,6 +158,8 @@ pub struct State {
     pub checks: ChecksState,
     /// Saving.
     pub export: ExportState,
+    /// How things were when the tour's step began.
+    pub tour: Option<Before>,
     /// What there is to say.
     pub messages: Vec<Message>,
 }
@@ -191,6 +194,7 @@ impl State {
             study: StudyState::default(),
             checks: ChecksState::default(),
             export: ExportState::default(),
+            tour: None,
             messages: Vec::new(),
         }
     }

@@ -34,6 +34,7 @@ mod looks;
 mod space;
 mod study;
 mod table;
+mod tour;
 mod view;
 
 pub use check::CheckText;
@@ -43,6 +44,7 @@ pub use looks::LooksText;
 pub use space::SpaceText;
 pub use study::StudyText;
 pub use table::Text;
+pub use tour::TourText;
 pub use view::ViewText;
 
 use crate::bdpt::record::SplitReason;
@@ -213,6 +215,7 @@ mod tests {
         check(LooksText::ALL);
         check(SpaceText::ALL);
         check(StudyText::ALL);
+        check(TourText::ALL);
         check(ViewText::ALL);
     }
 
