@@ -10,15 +10,19 @@ use crate::scene::Ray;
 
 mod cpu;
 mod device;
+mod frame;
 mod job;
+mod picture;
 mod session;
 mod stats;
 mod thread;
 pub use device::device_in_use;
+pub use frame::{Frame, Thumbnail};
 pub use job::{Backend, FILM_BUDGET, Job, JobError, MAX_SIDE};
+pub use picture::{Mode, Picture, Source, Values};
 pub use session::Session;
 pub use stats::{Notice, Stats};
-pub use thread::{Engine, Frame, Thumbnail};
+pub use thread::Engine;
 
 /// Re-runs one sample of one pixel: the very path the renderer used. Takes well under a millisecond.
 pub fn record(job: &Job, pixel: [u32; 2], sample: u32) -> Result<PathRecord, JobError> {

@@ -43,6 +43,10 @@ mod surfaces;
 mod surroundings;
 #[path = "ui/tour.rs"]
 mod tour;
+#[path = "ui/view.rs"]
+mod view;
+#[path = "ui/view_looks.rs"]
+mod view_looks;
 
 const SIZE: [u32; 2] = [64, 64];
 

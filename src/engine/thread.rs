@@ -1,9 +1,9 @@
 //! A session on a thread of its own, for a window: commands go in, frames come out, and nobody waits.
 
-use super::{Job, JobError, Session, Stats};
-use crate::bdpt::{Strategy, StrategySet};
-use crate::math::Vec3;
-use rayon::prelude::*;
+use super::frame::{Frame, make_frame, make_picture};
+use super::picture::{Gallery, Picture, Source};
+use super::{Job, JobError, Session};
+use crate::bdpt::StrategySet;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
@@ -12,45 +12,13 @@ use web_time::Instant;
 
 /// How long the thread renders before it looks for commands.
 const SLICE: Duration = Duration::from_millis(30);
-/// Longest side of a thumbnail, pixels.
-const THUMBNAIL_SIDE: u32 = 96;
-
-/// A small picture of one strategy's weighted layer.
-#[derive(Clone, Debug)]
-pub struct Thumbnail {
-    /// Which strategy.
-    pub strategy: Strategy,
-    /// Its size, pixels.
-    pub size: [u32; 2],
-    /// Mean radiance, row by row from the top.
-    pub pixels: Vec<Vec3>,
-    /// The strategy's share of the image's energy (sum over pixels and channels), 0…1.
-    pub share: f64,
-}
-
-/// What the window shows; made a few times a second.
-#[derive(Clone, Debug)]
-pub struct Frame {
-    /// Which job it belongs to: 0 for the first, one more for every [`Engine::restart`].
-    pub generation: u64,
-    /// Size, pixels.
-    pub size: [u32; 2],
-    /// Sum of the strategies that are not hidden, mean radiance, row by row from the top.
-    pub image: Vec<Vec3>,
-    /// One per strategy that takes part, in index order.
-    pub thumbnails: Vec<Thumbnail>,
-    /// The strategies that were left out of the sum.
-    pub hidden: StrategySet,
-    /// Counts and times.
-    pub stats: Stats,
-    /// Pairs of subpaths per second of rendering.
-    pub pairs_per_second: f64,
-}
 
 enum Command {
     Restart(Box<Job>, u64),
     Hide(Box<StrategySet>),
     Pause(bool),
+    /// Somebody looks at another picture.
+    Look,
     Stop,
 }
 
@@ -62,6 +30,7 @@ pub struct Engine {
     paused: bool,
     commands: Sender<Command>,
     frame: Arc<Mutex<Option<Arc<Frame>>>>,
+    gallery: Arc<Gallery>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -72,13 +41,21 @@ impl Engine {
         let session = Session::for_window(job.clone())?;
         let (commands, inbox) = channel();
         let frame = Arc::new(Mutex::new(None));
-        let worker =
-            Worker { session, generation: 0, hidden: StrategySet::NONE, paused: false, frame: Arc::clone(&frame), wake: Box::new(wake) };
+        let gallery = Arc::new(Gallery::default());
+        let worker = Worker {
+            session,
+            generation: 0,
+            hidden: StrategySet::NONE,
+            paused: false,
+            frame: Arc::clone(&frame),
+            gallery: Arc::clone(&gallery),
+            wake: Box::new(wake),
+        };
         let thread = std::thread::Builder::new()
             .name("render".to_owned())
             .spawn(move || worker.run(&inbox))
             .map_err(|error| JobError(format!("cannot start the render thread: {error}")))?;
-        Ok(Self { job, generation: 0, hidden: StrategySet::NONE, paused: false, commands, frame, thread: Some(thread) })
+        Ok(Self { job, generation: 0, hidden: StrategySet::NONE, paused: false, commands, frame, gallery, thread: Some(thread) })
     }
 
     /// Renders something else from now on. On an error the old job goes on. The new film is made by the thread: the caller,
@@ -120,6 +97,16 @@ impl Engine {
         frame.filter(|frame| frame.generation == self.generation)
     }
 
+    /// Asks for a picture, and returns the newest one of it that the current job has. Who shows it asks again in every pass of
+    /// the window: then it is kept up to date, and `wake` called when it is ready.
+    pub fn picture(&self, source: Source) -> Option<Arc<Picture>> {
+        let (picture, new) = self.gallery.ask(source, self.generation);
+        if new {
+            self.send(Command::Look);
+        }
+        picture
+    }
+
     /// Number of the current job.
     pub fn generation(&self) -> u64 {
         self.generation
@@ -151,6 +138,7 @@ struct Worker {
     hidden: StrategySet,
     paused: bool,
     frame: Arc<Mutex<Option<Arc<Frame>>>>,
+    gallery: Arc<Gallery>,
     wake: Box<dyn Fn() + Send + Sync>,
 }
 
@@ -167,6 +155,7 @@ impl Worker {
                     Ok(Command::Restart(job, generation)) => restart = Some((*job, generation)),
                     Ok(Command::Hide(hidden)) => self.hidden = *hidden,
                     Ok(Command::Pause(paused)) => self.paused = paused,
+                    Ok(Command::Look) => {}
                     Err(TryRecvError::Empty) => break,
                 }
                 changed = true;
@@ -201,70 +190,9 @@ impl Worker {
     fn publish(&mut self) {
         self.session.collect();
         let frame = Arc::new(make_frame(&self.session, self.generation, self.hidden));
+        let pictures = self.gallery.wanted(true).into_iter().filter_map(|source| make_picture(&self.session, source, &frame));
+        pictures.for_each(|picture| self.gallery.put(picture));
         *self.frame.lock().unwrap_or_else(PoisonError::into_inner) = Some(frame);
         (self.wake)();
     }
-}
-
-/// One look at a session: every sum is read once, for the image and for its thumbnail, rows in parallel.
-fn make_frame(session: &Session, generation: u64, hidden: StrategySet) -> Frame {
-    let ([width, height], (film, plan)) = (session.job().size, session.parts());
-    let factor = width.max(height).div_ceil(THUMBNAIL_SIDE).max(1);
-    let small = [width.div_ceil(factor), height.div_ceil(factor)];
-    let layers: Vec<_> = plan.strategies().filter_map(|x| Some((x, plan.layer(x, true)?, !hidden.contains(x)))).collect();
-    let means = film.preview();
-
-    // One row of thumbnails per chunk of rows; `sums` is [strategy][column].
-    let mut image = vec![Vec3::ZERO; width as usize * height as usize];
-    let columns = small[0] as usize;
-    let chunks = image.par_chunks_mut((width * factor) as usize).enumerate();
-    let thumbnail_rows: Vec<Vec<Vec3>> = chunks
-        .map(|(chunk, rows)| {
-            let first = chunk * (width * factor) as usize;
-            let mut sums = vec![Vec3::ZERO; layers.len() * columns];
-            for (i, pixel) in rows.iter_mut().enumerate() {
-                let column = i % width as usize / factor as usize;
-                for (n, (_, layer, shown)) in layers.iter().enumerate() {
-                    let value = layer.mean(&means, first + i);
-                    sums[n * columns + column] += value;
-                    if *shown {
-                        *pixel += value;
-                    }
-                }
-            }
-            sums
-        })
-        .collect();
-
-    let thumbnails = thumbnails(&layers.iter().map(|(x, _, _)| *x).collect::<Vec<_>>(), small, &thumbnail_rows, [width, height], factor);
-    let stats = session.stats();
-    let pairs_per_second = if stats.seconds > 0.0 { stats.pairs as f64 / stats.seconds } else { 0.0 };
-    Frame { generation, size: [width, height], image, thumbnails, hidden, stats, pairs_per_second }
-}
-
-/// Thumbnails from their rows of sums, with each one's share of the energy.
-fn thumbnails(strategies: &[Strategy], small: [u32; 2], rows: &[Vec<Vec3>], [width, height]: [u32; 2], factor: u32) -> Vec<Thumbnail> {
-    let columns = small[0] as usize;
-    let energy =
-        |n: usize| rows.iter().flat_map(|row| &row[n * columns..(n + 1) * columns]).map(|c| f64::from(c.element_sum())).sum::<f64>();
-    let total: f64 = (0..strategies.len()).map(energy).sum();
-    // Cells at the right and the lower border may cover fewer pixels.
-    let covered = |i: u32, side: u32| factor.min(side - i * factor) as f32;
-    let pixels = |n: usize| {
-        let cells = rows
-            .iter()
-            .zip(0u32..)
-            .flat_map(move |(row, y)| row[n * columns..(n + 1) * columns].iter().zip(0u32..).map(move |(sum, x)| (sum, x, y)));
-        cells.map(|(sum, x, y)| *sum / (covered(x, width) * covered(y, height))).collect()
-    };
-    strategies
-        .iter()
-        .enumerate()
-        .map(|(n, &strategy)| Thumbnail {
-            strategy,
-            size: small,
-            pixels: pixels(n),
-            share: if total > 0.0 { energy(n) / total } else { 0.0 },
-        })
-        .collect()
 }

@@ -6,6 +6,9 @@
 //! each pass they are folded into f64 sums. So an image depends on its seed and never on the number of threads. Sums are
 //! divided by their counts only when someone looks.
 
+pub mod colourmap;
+pub mod difference;
+pub mod picture;
 pub mod save;
 pub mod tonemap;
 

@@ -1,5 +1,7 @@
 //! The program's window: the layout of its panels, and the passes in which they are shown.
 
+use super::compare::Keeper;
+use super::darkroom::Darkroom;
 use super::live::{Live, SceneSource};
 use super::pictures::Pictures;
 use super::state::{Maximised, Opening, Preferences, State};
@@ -30,6 +32,8 @@ pub struct App {
     live: Live,
     wake: Wake,
     pictures: Pictures,
+    keeper: Keeper,
+    darkroom: Darkroom,
     image: Rect,
     ui_ms: f32,
 }
@@ -46,8 +50,10 @@ impl App {
         Self {
             state: State::new(preferences.unwrap_or_default(), start.size),
             live,
+            keeper: Keeper::new(&wake),
             wake,
             pictures: Pictures::new(ctx),
+            darkroom: Darkroom::new(ctx),
             image: Rect::NOTHING,
             ui_ms: 0.0,
         }
@@ -62,6 +68,7 @@ impl App {
         let data = old.data(Clone::clone);
         ctx.data_mut(|new| *new = data);
         self.pictures = Pictures::new(ctx);
+        self.darkroom = Darkroom::new(ctx);
     }
 
     /// What a person chose.
@@ -87,13 +94,14 @@ impl App {
     }
 
     fn sync(&mut self, ctx: &egui::Context) {
-        if self.live.sync(&mut self.state) {
+        let shown = self.live.sync(&mut self.state);
+        if self.keeper.sync(&mut self.state, &self.live) || shown {
             ctx.request_repaint();
         }
     }
 
     fn panels(&mut self, ui: &mut Ui) {
-        let Self { state, live, pictures, .. } = self;
+        let Self { state, live, pictures, darkroom, .. } = self;
         // The window is cleared to the panels' ground: painting it once more would cost a software adapter a whole frame's time.
         let bar = |top: i8| {
             Frame::side_top_panel(ui.style()).fill(Color32::TRANSPARENT).inner_margin(Margin { left: 10, right: 10, top, bottom: top })
@@ -134,7 +142,7 @@ impl App {
                 }
             }
         }
-        self.image = whole.show(ui, |ui| image_view::show(ui, state, live, pictures)).inner;
+        self.image = whole.show(ui, |ui| image_view::show(ui, state, live, darkroom)).inner;
     }
 
     /// Files dropped on the window, and the invitation to drop them.
@@ -172,6 +180,7 @@ impl eframe::App for App {
         let start = Instant::now();
         keys::obey(ui.ctx(), &mut self.state, image_view::id());
         self.pictures.collect(ui.ctx());
+        self.darkroom.collect(ui.ctx());
         self.drops(ui);
         self.panels(ui);
         help::show(ui.ctx(), &mut self.state);

@@ -8,7 +8,7 @@ use super::text::{Text, fill};
 use super::theme;
 use super::widgets::{Icon, IconToggle, aligned_text, cell_text, full_name, icon_toggle, pair, role_help, role_name};
 use crate::bdpt::Strategy;
-use crate::engine::Thumbnail;
+use crate::engine::{Mode, Thumbnail};
 use eframe::egui::epaint::RectShape;
 use eframe::egui::{
     self, Align2, Color32, CornerRadius, FontId, Pos2, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo,
@@ -68,6 +68,10 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &spoken));
     if response.clicked() {
         state.select_strategy(strategy);
+    }
+    // Enter also counts as a click.
+    if response.double_clicked() || (response.has_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter))) {
+        state.open_large(strategy, Mode::Weighted);
     }
     if ui.is_rect_visible(rect) {
         let visible = frame.filter(|_| content.empty(state).is_none());

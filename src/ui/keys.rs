@@ -1,7 +1,7 @@
 //! Every key, in one table: it is what the program obeys, what the help window lists and what tooltips quote.
 
-use super::state::{Placement, State};
-use super::text::Text;
+use super::state::{Placement, Source, State};
+use super::text::{Text, Words};
 use crate::bdpt::Strategy;
 use eframe::egui;
 use eframe::egui::Key;
@@ -11,6 +11,8 @@ use eframe::egui::Key;
 pub enum Action {
     /// Exposure up or down half an EV.
     Exposure,
+    /// Offset up or down by 0.1.
+    Offset,
     /// The selected pixel moves by one.
     Nudge,
     /// The next or previous sample.
@@ -21,6 +23,16 @@ pub enum Action {
     Vertex,
     /// The image fits its panel.
     Fit,
+    /// One pixel of the image on one of the screen.
+    OneToOne,
+    /// The next way to compare.
+    Compare,
+    /// A or B.
+    Flip,
+    /// Keeps the picture on show.
+    Keep,
+    /// Closes what is open; else back to the image.
+    Back,
     /// View, exposure and tone map as at the start.
     ResetView,
     /// Pause or go on.
@@ -50,7 +62,7 @@ pub struct Binding {
 impl Binding {
     /// Does the key act again and again while it is held? What it switches on it must not switch off at once.
     fn repeats(&self) -> bool {
-        matches!(self.action, Action::Nudge | Action::Sample | Action::Exposure | Action::Vertex)
+        matches!(self.action, Action::Nudge | Action::Sample | Action::Exposure | Action::Offset | Action::Vertex)
     }
 }
 
@@ -63,7 +75,13 @@ pub const TABLE: &[Binding] = &[
     Binding { action: Action::Hide, shown: "H", text: Text::KeyHide, keys: &[Key::H], shift: false },
     Binding { action: Action::Focus, shown: "G, Shift+G", text: Text::KeyFocus, keys: &[Key::G], shift: true },
     Binding { action: Action::Exposure, shown: "E, Shift+E", text: Text::KeyExposure, keys: &[Key::E], shift: true },
+    Binding { action: Action::Offset, shown: "O, Shift+O", text: Text::KeyOffset, keys: &[Key::O], shift: true },
     Binding { action: Action::Fit, shown: "F", text: Text::KeyFit, keys: &[Key::F], shift: false },
+    Binding { action: Action::OneToOne, shown: "Z, Ctrl+0", text: Text::KeyOneToOne, keys: &[Key::Z], shift: false },
+    Binding { action: Action::Compare, shown: "C", text: Text::KeyCompare, keys: &[Key::C], shift: false },
+    Binding { action: Action::Flip, shown: "X", text: Text::KeyFlip, keys: &[Key::X], shift: false },
+    Binding { action: Action::Keep, shown: "K", text: Text::KeyKeep, keys: &[Key::K], shift: false },
+    Binding { action: Action::Back, shown: "Esc", text: Text::KeyBack, keys: &[Key::Escape], shift: false },
     Binding { action: Action::ResetView, shown: "R", text: Text::KeyReset, keys: &[Key::R], shift: false },
     Binding { action: Action::Pause, shown: "P", text: Text::KeyPause, keys: &[Key::P], shift: false },
     Binding { action: Action::Help, shown: "?", text: Text::KeyHelp, keys: &[Key::Questionmark], shift: true },
@@ -73,7 +91,7 @@ const ARROWS: &[Key] = &[Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::Arr
 const DIGITS: &[Key] = &[Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
 
 /// A tooltip: the words, and the keys that do the same.
-pub fn hint(state: &State, text: Text, action: Action) -> String {
+pub fn hint(state: &State, text: impl Words, action: Action) -> String {
     let keys = TABLE.iter().find(|row| row.action == action).map_or("", |row| row.shown);
     format!("{}  [{keys}]", state.say(text))
 }
@@ -95,8 +113,9 @@ pub fn obey(ctx: &egui::Context, state: &mut State, image: egui::Id) {
             }
         }
     }
-    if ctx.input(|input| input.key_pressed(Key::Escape)) {
-        (state.help, state.picking_focus) = (false, false);
+    // What fingers know from other viewers; egui would set the window's scale back.
+    if ctx.input_mut(|input| input.consume_key(egui::Modifiers::COMMAND, Key::Num0)) {
+        perform(state, Action::OneToOne, 0, false);
     }
 }
 
@@ -126,6 +145,11 @@ pub fn release_after_click(ctx: &egui::Context) {
 pub fn perform(state: &mut State, action: Action, index: usize, shift: bool) {
     match action {
         Action::Exposure => state.exposure = (state.exposure + if shift { -0.5 } else { 0.5 }).clamp(-20.0, 20.0),
+        Action::Offset => {
+            let offset = state.view.offset + if shift { -0.1 } else { 0.1 };
+            // Steps of a tenth stay tenths.
+            state.view.offset = ((offset * 1000.0).round() / 1000.0).clamp(-10.0, 10.0);
+        }
         Action::Nudge => nudge(state, index, if shift { 10 } else { 1 }),
         Action::Sample => step_sample(state, shift),
         Action::Strategy => {
@@ -139,9 +163,14 @@ pub fn perform(state: &mut State, action: Action, index: usize, shift: bool) {
             state.selection.vertex = (state.selection.vertex + if shift { count - 1 } else { 1 }) % count;
         }
         Action::Fit => state.placement = Placement::Fit,
+        Action::OneToOne => state.view.one_to_one = true,
+        Action::Compare => state.compare.cycle(),
+        Action::Flip => state.compare.flipped = !state.compare.flipped,
+        Action::Keep => state.compare.keep = true,
+        Action::Back => back(state),
         Action::ResetView => {
             state.placement = Placement::Fit;
-            state.exposure = 0.0;
+            (state.exposure, state.view.offset) = (0.0, 0.0);
             state.tonemap = crate::film::tonemap::ToneMap::Srgb;
         }
         Action::Pause => state.paused = !state.paused,
@@ -159,6 +188,14 @@ pub fn perform(state: &mut State, action: Action, index: usize, shift: bool) {
 pub fn step_sample(state: &mut State, back: bool) {
     let sample = &mut state.selection.sample;
     *sample = if back { sample.saturating_sub(1) } else { sample.saturating_add(1) };
+}
+
+/// Closes what is open; with nothing open, the view goes back to the image.
+fn back(state: &mut State) {
+    let open = std::mem::take(&mut state.help) | std::mem::take(&mut state.picking_focus);
+    if !open {
+        state.compare.a = Source::Image;
+    }
 }
 
 fn nudge(state: &mut State, arrow: usize, step: i64) {

@@ -9,6 +9,8 @@ mod app;
 mod camera_bar;
 mod cell;
 mod checks;
+mod compare;
+mod darkroom;
 mod edit;
 mod export;
 mod features;

@@ -1,15 +1,18 @@
 //! Everything a person can change in the window, as plain data: panels show it and edit it, and nothing else happens here.
 
 pub use super::checks::ChecksState;
+pub use super::compare::{CompareState, Mode as CompareMode, Source};
 pub use super::edit::EditState;
 pub use super::export::ExportState;
+pub use super::image_view::ViewState;
 pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};
 pub use super::space::SpaceState;
 pub use super::study::StudyState;
 use super::text::{Lang, Text, Words};
 pub use super::tour::Before;
 use crate::bdpt::{Existence, Settings, Strategy, StrategySet};
-use crate::film::tonemap::ToneMap;
+use crate::engine::Mode;
+use crate::film::tonemap::{Look, ToneMap};
 use crate::scene::Lens;
 use crate::scene::environment::EnvironmentSource;
 use eframe::egui;
@@ -142,6 +145,10 @@ pub struct State {
     pub exposure: f32,
     /// Tone mapping.
     pub tonemap: ToneMap,
+    /// The rest of the image view.
+    pub view: ViewState,
+    /// Which picture it shows, and what it is compared with.
+    pub compare: CompareState,
     /// Vertices listed by the path page.
     pub walk: Walk,
     /// The panel that has the window for itself.
@@ -186,6 +193,8 @@ impl State {
             placement: Placement::Fit,
             exposure: 0.0,
             tonemap: ToneMap::Srgb,
+            view: ViewState::default(),
+            compare: CompareState::default(),
             walk: Walk::Full,
             maximised: Maximised::None,
             help: false,
@@ -202,6 +211,19 @@ impl State {
     /// A text in the chosen language.
     pub fn say(&self, text: impl Words) -> &'static str {
         text.in_language(self.prefs.lang)
+    }
+
+    /// Shows a strategy's picture in the image view.
+    pub fn open_large(&mut self, strategy: Strategy, mode: Mode) {
+        self.compare.a = Source::Strategy(strategy, mode);
+        if self.maximised == Maximised::Pyramid {
+            self.maximised = Maximised::None;
+        }
+    }
+
+    /// How pictures are shown.
+    pub fn look(&self) -> Look {
+        Look { exposure_ev: self.exposure, offset: self.view.offset, tonemap: self.tonemap }
     }
 
     /// Selects a pixel; outside the film, the nearest one.

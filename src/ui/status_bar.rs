@@ -1,9 +1,11 @@
 //! The status bar: who computes, how far and how fast, and what the selected pixel holds.
 
+use super::compare::{Pair, Value};
 use super::format;
+use super::image_view::Pointer;
 use super::live::Live;
 use super::state::State;
-use super::text::{Lang, Text, fill};
+use super::text::{Lang, Text, ViewText, fill};
 use crate::engine::{Backend, Notice, Stats};
 use eframe::egui::{self, Align, Color32, Label, Layout, RichText, Ui, WidgetText, vec2};
 
@@ -156,18 +158,20 @@ fn selection(state: &State, live: &Live) -> Vec<Item> {
     let words = [x, y, selection.sample, state.settings.seed].map(|v| v.to_string());
     let words = fill(state.say(Text::WhichSample), &words.each_ref().map(String::as_str));
     let mut items = vec![Item::new(words.clone(), words, 2)];
-    if let Some(frame) = live.frame()
-        && let Some(value) = frame.image.get((y as usize) * frame.size[0] as usize + x as usize)
-        && frame.size == state.size
-    {
-        let value = match live.first_pass() {
-            Some(_) => "–".to_owned(),
-            None => value.to_array().map(|v| format::number(f64::from(v))).join("  "),
-        };
-        let text = RichText::new(format!("{} {value}", state.say(Text::PixelValue))).monospace().small();
-        items.push(Item::new(text, state.say(Text::HelpPixelValue), 0));
+    if let Some(words) = under_pointer(state, live) {
+        items.push(Item::new(RichText::new(words).monospace().small(), state.say(ViewText::HelpUnderPointer), 0));
     }
     items
+}
+
+/// What the image view shows under the pointer, in numbers.
+fn under_pointer(state: &State, live: &Live) -> Option<String> {
+    let Pointer { pixel, right } = state.view.pointer?;
+    // In the first pass, rows stand in for others: no number is theirs yet.
+    let value = Pair::find(state, live).value(pixel, right, state.compare.metric).filter(|_| live.first_pass().is_none());
+    let numbers = |value: Value| value.numbers().into_iter().map(|v| format::number(f64::from(v))).collect::<Vec<_>>().join("  ");
+    let [x, y] = pixel.map(|v| v.to_string());
+    Some(fill(state.say(ViewText::UnderPointer), &[&x, &y, &value.map_or("–".to_owned(), numbers)]))
 }
 
 #[cfg(test)]

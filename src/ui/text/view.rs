@@ -1,5 +1,105 @@
-//! The texts of the image view, the vertex card and the window's looks.
+//! The texts of the image view and of comparisons.
 
 texts! { ViewText;
-    Title: "View", "视图";
+    // Looks.
+    Offset: "Offset", "偏移";
+    HelpOffset: "Added after the exposure, before the tone curve; 1 is the screen's white", "在曝光之后、色调曲线之前加上；1 为屏幕白色";
+    Auto: "Auto", "自动";
+    HelpAuto: "Exposes for the bright parts: the 99th percentile of what is shown comes just below white; offset 0.", "按亮部曝光：所示画面的第 99 百分位略低于白色；偏移归零。";
+    FalseColour: "False colour", "伪彩色";
+    HelpSrgb: "Clips what is brighter than white; the only one in which equal steps of radiance stay equal.", "截断比白色更亮的部分；唯一保持辐射亮度等差的方式。";
+    HelpAces: "A filmic S-curve per channel: highlights roll off.", "逐通道的胶片 S 曲线：高光柔和过渡。";
+    HelpReinhard: "L/(1 + L) on the luminance: nothing is ever clipped, colours stay.", "对亮度取 L/(1 + L)：不截断，色相不变。";
+    HelpFalseColour: "Luminance as a colour of the Viridis scale, a logarithmic one; the scale is drawn beside it.", "用 Viridis 色标（对数）表示亮度；色标画在一旁。";
+    OneToOne: "1:1", "1:1";
+    Marked: "{} pixels hold no finite number; they are magenta", "{} 个像素不是有限数值，以洋红色标出";
+    PixelValues: "Pixel {}, {}: {}", "像素 {}, {}：{}";
+    NoValue: "–", "–";
+    // Value under the pointer, of the selected pixel, of its sample.
+    UnderPointer: "at {}, {}: {}", "{}, {} 处：{}";
+    HelpUnderPointer: "What is shown under the pointer, as linear numbers: red, green, blue (W m⁻² sr⁻¹), or a single one.", "指针处所示的线性数值：红、绿、蓝（W m⁻² sr⁻¹），或单个数值。";
+    MeanOf: "mean of {} spp", "{} spp 的平均";
+    HelpMean: "Mean radiance of the selected pixel so far, over all samples and without the strategies that are hidden: red, green, blue; W m⁻² sr⁻¹", "所选像素目前的平均辐射亮度（全部采样，不含隐藏的策略）：红、绿、蓝；W m⁻² sr⁻¹";
+    SampleAlone: "sample {} alone", "单独的采样 {}";
+    HelpSampleAlone: "What the selected sample adds to its own pixel, without the strategies that are hidden: red, green, blue; W m⁻² sr⁻¹. The mean over all samples is the pixel's value, but for light tracer contributions, which come from other pixels' samples.", "所选采样为自身像素贡献的值（不含隐藏的策略）：红、绿、蓝；W m⁻² sr⁻¹。全部采样的平均即像素值，唯有光源追踪的贡献来自其他像素的采样。";
+    // Sources.
+    ShowSource: "Picture", "画面";
+    HelpSource: "What the view shows: the image, a strategy in large, or a picture that was kept.", "视图显示的内容：图像、放大的某个策略，或保留的画面。";
+    TheImage: "image", "图像";
+    SelectedStrategy: "the selected strategy {}", "所选策略 {}";
+    KeptNumber: "kept {}", "保留 {}";
+    BackToImage: "Back to the image", "回到图像";
+    OpenLarge: "Open in large", "放大查看";
+    HelpOpenLarge: "Shows the selected strategy's picture in the image view (also: a double click on its cell, or Enter).", "在图像视图中显示所选策略的画面（也可双击其单元格或按 Enter）。";
+    ModeOf: "Shows", "内容";
+    ModeWeighted: "weighted", "加权";
+    ModeRaw: "raw", "未加权";
+    ModeWeight: "weight", "权重";
+    ModeCount: "samples", "采样数";
+    ModeVariance: "variance", "方差";
+    HelpModeWeighted: "w C*: what the strategy adds to the image", "w C*：该策略对图像的贡献";
+    HelpModeRaw: "C*: what it would bring alone", "C*：单独使用时的结果";
+    HelpModeWeight: "Mean weight w of the samples that carry light", "携带光的采样的平均权重 w";
+    HelpModeCount: "Samples that carry light, per pass", "每遍中携带光的采样数";
+    HelpModeVariance: "Variance of what one pass adds", "单遍贡献的方差";
+    SomeStrategies: "some strategies", "部分策略";
+    SppAndTime: "{} spp, {} s", "{} spp，{} 秒";
+    NotThere: "This strategy takes no part here: it does not exist in the scene, or was removed.", "该策略未参与：场景中不存在，或已被移除。";
+    OtherSize: "{} has {}×{} pixels, the film {}×{}: choose that film size to see it.", "{} 为 {}×{} 像素，画幅为 {}×{}：请选择该画幅尺寸再查看。";
+    ComingSoon: "…", "…";
+    // Comparing.
+    Compare: "Compare", "比较";
+    HelpCompare: "Two pictures in the same place: flip between them, split the view, or see what they differ by.", "两幅画面在同一位置：翻看、分屏，或查看差异。";
+    PictureA: "A", "A";
+    PictureB: "B", "B";
+    HelpA: "A, the picture on show", "A，所显示的画面";
+    HelpB: "B, what it is compared with; in a difference, B is taken for right. Hold Shift to peek at it.", "B，比较的对象；求差异时以 B 为准。按住 Shift 可瞥一眼 B。";
+    NoB: "choose …", "请选择 …";
+    Swap: "A ⇄ B", "A ⇄ B";
+    HelpSwap: "Swaps A and B", "交换 A 和 B";
+    Flip: "Flip", "翻看";
+    HelpFlip: "One at a time, in the same place; hold Shift to peek at B.", "在同一位置一次看一幅；按住 Shift 瞥一眼 B。";
+    Split: "Split", "分屏";
+    HelpSplit: "A to the left of a line, B to the right; the line can be dragged, or moved with the arrow keys while it has the focus.", "线左为 A，线右为 B；线可拖动，获得焦点后也可用方向键移动。";
+    Difference: "Difference", "差异";
+    HelpDifference: "What A and B differ by, pixel by pixel, and as a whole in figures.", "A 与 B 的逐像素差异，以及总体数字。";
+    ShowB: "Show B", "显示 B";
+    Divider: "Line between A and B", "A 与 B 的分界线";
+    Metric: "Metric", "度量";
+    MetricSigned: "A − B", "A − B";
+    MetricAbsolute: "|A − B|", "|A − B|";
+    MetricRelative: "(A − B)²/(B² + 0.01)", "(A − B)²/(B² + 0.01)";
+    HelpMetricSigned: "Orange where A is brighter, blue where B is; mean over the channels, exposure applies.", "橙色处 A 较亮，蓝色处 B 较亮；取各通道平均，受曝光影响。";
+    HelpMetricAbsolute: "The size of the difference in false colour, mean over the channels", "差异大小的伪彩色，取各通道平均";
+    HelpMetricRelative: "Squared and relative to B, in false colour: dark parts count as much as bright ones. Its mean is relMSE.", "相对 B 的平方误差，伪彩色：暗部与亮部同等重要。其平均即 relMSE。";
+    FigureMean: "mean A − B {}", "平均 A − B {}";
+    HelpFigureMean: "Mean over pixels and channels, W m⁻² sr⁻¹: how much brighter A is as a whole", "像素与通道的平均，W m⁻² sr⁻¹：A 总体亮多少";
+    FigureAbsolute: "mean |A − B| {}", "平均 |A − B| {}";
+    HelpFigureAbsolute: "Mean of the absolute difference over pixels and channels, W m⁻² sr⁻¹", "绝对差的像素与通道平均，W m⁻² sr⁻¹";
+    FigureMax: "max |A − B| {}", "最大 |A − B| {}";
+    HelpFigureMax: "Largest absolute difference of a pixel (mean over its channels), W m⁻² sr⁻¹, at pixel {}, {}: a click selects it.", "单个像素（通道平均）的最大绝对差，W m⁻² sr⁻¹，位于像素 {}, {}：点击可选中。";
+    FigureRelative: "relMSE {}", "relMSE {}";
+    HelpFigureRelative: "Mean of (A − B)²/(B² + 0.01) over pixels and channels; B is the reference.", "(A − B)²/(B² + 0.01) 的像素与通道平均；B 为参考。";
+    LeftOut: "{} pixels left out", "略去 {} 个像素";
+    HelpLeftOut: "They hold no finite number in A or in B.", "它们在 A 或 B 中不是有限数值。";
+    EqualSamples: "equal samples", "相同采样数";
+    EqualTime: "equal time", "相同时间";
+    HelpEqual: "A and B were rendered with as many samples per pixel (to 2 %), or for as long (to 5 %).", "A 与 B 的每像素采样数相同（差 2% 以内），或渲染时间相同（差 5% 以内）。";
+    Keep: "Keep", "保留";
+    HelpKeep: "Keeps the picture on show as it is now, with its estimator, samples and time; at most 8, the oldest go.", "保留当前画面及其估计方法、采样数与时间；最多 8 幅，最旧的先被替换。";
+    Forget: "Forget {}", "删除 {}";
+    Load: "Load …", "载入 …";
+    HelpLoad: "Reads a .exr or .hdr picture of the film's size, a reference to compare with", "读取与画幅同尺寸的 .exr / .hdr 画面作为参考";
+    LoadPath: "A .exr or .hdr file:", ".exr 或 .hdr 文件：";
+    ReaderDied: "'{}' could not be read: its reader stopped. Try another file.", "无法读取“{}”：读取程序已停止。请换一个文件。";
+    WrongSize: "'{}' has {}×{} pixels and the film {}×{}: only pictures of the same size can be compared. Choose that film size, or another file.", "“{}”为 {}×{} 像素，而画幅为 {}×{}：只能比较尺寸相同的画面。请选择该画幅尺寸，或换一个文件。";
+    // Device against processor.
+    Replayed: "GPU = CPU", "GPU = CPU";
+    HelpReplayed: "The GPU's sample and its re-run on the CPU, which the inspector shows, agree in every strategy, to {}.", "GPU 的该采样与检查器所示的 CPU 重放在每个策略上一致，误差不超过 {}。";
+    Diverged: "GPU ≠ CPU", "GPU ≠ CPU";
+    HelpDiverged: "This sample took another turn on the GPU than in its re-run on the CPU, which the inspector shows: a number fell on the other side of a threshold by rounding. Of {}, the GPU has {}, the CPU {}.", "该采样在 GPU 上与检查器所示的 CPU 重放走了不同的路：某个数值因舍入落在阈值的另一侧。{}：GPU 为 {}，CPU 为 {}。";
+    Replaying: "GPU ? CPU", "GPU ? CPU";
+    HelpReplaying: "The GPU's sample is being compared with its re-run on the CPU.", "正在比较 GPU 的采样与其 CPU 重放。";
+    NotOnGpu: "The image is rendered by the CPU: the sample shown is the very one in the image.", "图像由 CPU 渲染：所示采样即图像中的采样。";
+    NotReplayed: "The GPU's sample could not be compared with its re-run on the CPU: {}.", "无法比较 GPU 的采样与其 CPU 重放：{}。";
 }

@@ -1,0 +1,343 @@
+//! Which picture the image view shows, and which one it is compared with: the image, a strategy in large, a picture that was
+//! kept, or one read from a file. Zoom and place are the view's own, and so the same for both.
+
+mod bar;
+mod keeper;
+mod source;
+
+pub use bar::{MODES, choose, metric_text, show, takes_part};
+pub use keeper::Keeper;
+pub use source::{Content, Missing, Scale, Source, Sourced, mode_text, name, samples, short_name};
+
+use source::find;
+
+use super::live::Live;
+use super::state::State;
+use crate::film::difference::Metric;
+use crate::film::picture::Picture;
+use crate::math::Vec3;
+use std::borrow::Cow;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Most pictures that are kept; the oldest go.
+pub const MOST_KEPT: usize = 8;
+
+/// How two pictures are compared.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// One at a time, in the same place.
+    #[default]
+    Flip,
+    /// A to the left of a line, B to the right.
+    Split,
+    /// What they differ by.
+    Difference,
+}
+
+impl Mode {
+    /// All of them, in the order they are offered.
+    pub const ALL: [Self; 3] = [Self::Flip, Self::Split, Self::Difference];
+}
+
+/// What a kept picture is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum About {
+    /// A rendering, as it was when it was kept.
+    Rendered(Rendered),
+    /// The file it was read from.
+    File(String),
+}
+
+/// A rendering at some moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rendered {
+    /// The image, or a strategy's picture.
+    pub source: Source,
+    /// The scene.
+    pub scene: String,
+    /// The estimator.
+    pub settings: crate::bdpt::Settings,
+    /// Strategies that were hidden.
+    pub hidden: usize,
+    /// Samples per pixel.
+    pub spp: f64,
+    /// Time spent rendering, s.
+    pub seconds: f64,
+}
+
+/// A picture that stays when the rendering goes on.
+#[derive(Clone, Debug)]
+pub struct Kept {
+    /// Its number, from 1.
+    pub id: u32,
+    /// What it is.
+    pub about: About,
+    /// Itself.
+    pub picture: Arc<Picture>,
+}
+
+/// What a person chose to compare, and what was kept for it.
+#[derive(Clone, Debug)]
+pub struct CompareState {
+    /// Is the bar open?
+    pub open: bool,
+    /// A: what the view shows.
+    pub a: Source,
+    /// B: what it is compared with.
+    pub b: Option<Source>,
+    /// How.
+    pub mode: Mode,
+    /// In numbers, how.
+    pub metric: Metric,
+    /// B is shown instead of A.
+    pub flipped: bool,
+    /// B is shown while Shift is held.
+    pub peeking: bool,
+    /// Where the line of the split is: 0 at the left end of the view, 1 at the right.
+    pub split: f32,
+    /// The pictures kept, oldest first.
+    pub kept: Vec<Kept>,
+    /// How many were ever kept.
+    pub count: u32,
+    /// Keep what the view shows; done by whoever has it.
+    pub keep: bool,
+    /// The path typed for a picture to compare with.
+    pub field: String,
+    /// A picture to read; taken by whoever reads it.
+    pub load: Option<PathBuf>,
+}
+
+impl Default for CompareState {
+    fn default() -> Self {
+        Self {
+            open: false,
+            a: Source::Image,
+            b: None,
+            mode: Mode::Flip,
+            metric: Metric::Signed,
+            flipped: false,
+            peeking: false,
+            split: 0.5,
+            kept: Vec::new(),
+            count: 0,
+            keep: false,
+            field: String::new(),
+            load: None,
+        }
+    }
+}
+
+impl CompareState {
+    /// Adds a picture, and lets the oldest go. What showed that one shows the image, or nothing, instead.
+    pub fn add(&mut self, about: About, picture: Arc<Picture>) -> u32 {
+        self.count += 1;
+        self.kept.push(Kept { id: self.count, about, picture });
+        while self.kept.len() > MOST_KEPT {
+            let id = self.kept.first().map_or(0, |oldest| oldest.id);
+            self.remove(id);
+        }
+        self.count
+    }
+
+    /// Lets a kept picture go.
+    pub fn remove(&mut self, id: u32) {
+        self.kept.retain(|kept| kept.id != id);
+        if self.a == Source::Kept(id) {
+            self.a = Source::Image;
+        }
+        if self.b == Some(Source::Kept(id)) {
+            self.b = None;
+        }
+    }
+
+    /// Opens or closes the bar. With nothing to compare with yet, the newest picture that was kept will do.
+    pub fn toggle(&mut self) {
+        self.open = !self.open;
+        if self.open && self.b.is_none() {
+            self.b = self.kept.iter().rev().map(|kept| Source::Kept(kept.id)).find(|source| *source != self.a);
+        }
+    }
+
+    /// The next way to compare; the first one opens the bar.
+    pub fn cycle(&mut self) {
+        if !self.open {
+            return self.toggle();
+        }
+        self.mode = match self.mode {
+            Mode::Flip => Mode::Split,
+            Mode::Split => Mode::Difference,
+            Mode::Difference => Mode::Flip,
+        };
+    }
+
+    /// What is compared with now: nothing while the bar is closed.
+    pub fn second(&self) -> Option<Source> {
+        self.b.filter(|_| self.open)
+    }
+
+    /// What is on show.
+    pub fn display(&self) -> Display {
+        match (self.second(), self.mode) {
+            (None, _) => Display::A,
+            (Some(_), _) if self.peeking => Display::B,
+            (Some(_), Mode::Flip) => {
+                if self.flipped {
+                    Display::B
+                } else {
+                    Display::A
+                }
+            }
+            (Some(_), Mode::Split) => Display::Split,
+            (Some(_), Mode::Difference) => Display::Difference,
+        }
+    }
+}
+
+/// What is on show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Display {
+    /// A alone.
+    A,
+    /// B alone.
+    B,
+    /// A and B beside each other.
+    Split,
+    /// What they differ by.
+    Difference,
+}
+
+/// The two pictures of this pass, as far as they are there.
+#[derive(Clone)]
+pub struct Pair {
+    /// What is on show.
+    pub display: Display,
+    /// A.
+    pub a: Result<Sourced, Missing>,
+    /// B, if anything is compared.
+    pub b: Option<Result<Sourced, Missing>>,
+}
+
+impl Pair {
+    /// Finds both.
+    pub fn find(state: &State, live: &Live) -> Self {
+        let compare = &state.compare;
+        Self { display: compare.display(), a: find(state, live, compare.a), b: compare.second().map(|b| find(state, live, b)) }
+    }
+
+    /// The values that a pixel shows; `right`: of the line that splits the view. `None` where there is no picture.
+    pub fn value(&self, pixel: [u32; 2], right: bool, metric: Metric) -> Option<Value> {
+        let of = |x: &Result<Sourced, Missing>| x.as_ref().ok()?.content.value(pixel);
+        let b = || of(self.b.as_ref()?);
+        match self.display {
+            Display::A => of(&self.a),
+            Display::B => b(),
+            Display::Split => {
+                if right {
+                    b()
+                } else {
+                    of(&self.a)
+                }
+            }
+            Display::Difference => {
+                let (a, b) = (of(&self.a)?.rgb(), b()?.rgb());
+                Some(if metric == Metric::Signed { Value::Colour(a - b) } else { Value::Number(metric.of(a, b)) })
+            }
+        }
+    }
+}
+
+impl Pair {
+    /// The pixels on show; of a difference, its size in every channel. `None` where there is no picture.
+    pub fn shown_pixels(&self, metric: Metric) -> Option<Cow<'_, [Vec3]>> {
+        let a = self.a.as_ref().ok().map(|x| x.content.pixels());
+        let b = self.b.as_ref().and_then(|x| Some(x.as_ref().ok()?.content.pixels()));
+        match self.display {
+            Display::A | Display::Split => a,
+            Display::B => b,
+            Display::Difference => {
+                let size = |(a, b): (&Vec3, &Vec3)| Vec3::splat(metric.of(*a, *b).abs());
+                Some(a?.iter().zip(b?.iter()).map(size).collect())
+            }
+        }
+    }
+}
+
+/// What a pixel holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// Linear red, green and blue.
+    Colour(Vec3),
+    /// A number.
+    Number(f32),
+}
+
+impl Value {
+    /// The same as three channels.
+    pub fn rgb(self) -> Vec3 {
+        match self {
+            Self::Colour(rgb) => rgb,
+            Self::Number(value) => Vec3::splat(value),
+        }
+    }
+
+    /// Its numbers.
+    pub fn numbers(self) -> Vec<f32> {
+        match self {
+            Self::Colour(rgb) => rgb.to_array().to_vec(),
+            Self::Number(value) => vec![value],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture() -> Arc<Picture> {
+        Arc::new(Picture { size: [1, 1], pixels: vec![Vec3::ONE] })
+    }
+
+    #[test]
+    fn the_oldest_of_nine_goes_and_nothing_shows_it_any_more() {
+        let mut compare = CompareState::default();
+        for _ in 0..MOST_KEPT {
+            compare.add(About::File("x".into()), picture());
+        }
+        (compare.a, compare.b) = (Source::Kept(1), Some(Source::Kept(1)));
+        compare.add(About::File("y".into()), picture());
+        let ids: Vec<u32> = compare.kept.iter().map(|kept| kept.id).collect();
+        assert_eq!(ids, (2..=9).collect::<Vec<_>>());
+        assert_eq!((compare.a, compare.b), (Source::Image, None));
+    }
+
+    #[test]
+    fn what_is_on_show_follows_the_mode_and_shift() {
+        let mut compare = CompareState { b: Some(Source::Image), ..CompareState::default() };
+        compare.peeking = true;
+        assert_eq!(compare.display(), Display::A, "the bar is closed");
+        compare.toggle();
+        assert_eq!(compare.display(), Display::B);
+        compare.peeking = false;
+        let mut seen = Vec::new();
+        for _ in 0..3 {
+            seen.push(compare.display());
+            compare.cycle();
+        }
+        assert_eq!(seen, [Display::A, Display::Split, Display::Difference]);
+        compare.flipped = true;
+        assert_eq!(compare.display(), Display::B);
+    }
+
+    #[test]
+    fn opening_takes_the_newest_picture_kept() {
+        let mut compare = CompareState::default();
+        compare.toggle();
+        assert_eq!(compare.second(), None, "there is none");
+        compare.toggle();
+        compare.add(About::File("x".into()), picture());
+        compare.add(About::File("y".into()), picture());
+        compare.toggle();
+        assert_eq!(compare.second(), Some(Source::Kept(2)));
+    }
+}

@@ -1,0 +1,300 @@
+//! A picture that can be shown, by what it is; found anew in every pass, because most of them change while one looks.
+
+use super::super::format;
+use super::super::live::Live;
+use super::super::state::State;
+use super::super::text::{Lang, Text, ViewText, fill};
+use super::super::widgets::full_name;
+use super::{About, Kept, Rendered};
+use crate::bdpt::{HeuristicKind, Settings, Strategy, StrategySet};
+use crate::engine::{self, Frame, Mode, Values};
+use crate::film::picture::{Picture, pixel_of};
+use crate::math::Vec3;
+use std::borrow::Cow;
+use std::sync::Arc;
+
+/// Which picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Source {
+    /// The image being rendered.
+    Image,
+    /// A strategy's, in full size.
+    Strategy(Strategy, Mode),
+    /// A kept one, by its number.
+    Kept(u32),
+}
+
+/// Its pixels.
+#[derive(Clone)]
+pub enum Content {
+    /// The image.
+    Frame(Arc<Frame>),
+    /// A strategy's.
+    Engine(Arc<engine::Picture>),
+    /// A kept one.
+    Kept(Arc<Picture>),
+}
+
+impl Content {
+    /// Size, pixels.
+    pub fn size(&self) -> [u32; 2] {
+        match self {
+            Self::Frame(frame) => frame.size,
+            Self::Engine(picture) => picture.size,
+            Self::Kept(picture) => picture.size,
+        }
+    }
+
+    /// What it holds at a pixel; `None` outside.
+    pub fn value(&self, at: [u32; 2]) -> Option<super::Value> {
+        let size = self.size();
+        let colour = |pixels: &[Vec3]| pixel_of(size, pixels, at).map(super::Value::Colour);
+        match self {
+            Self::Frame(frame) => colour(&frame.image),
+            Self::Kept(picture) => colour(&picture.pixels),
+            Self::Engine(picture) => match &picture.values {
+                Values::Colour(pixels) => colour(pixels),
+                Values::Scalar(numbers) => {
+                    let inside = at[0] < size[0] && at[1] < size[1];
+                    let index = at[1] as usize * size[0] as usize + at[0] as usize;
+                    numbers.get(index).filter(|_| inside).map(|number| super::Value::Number(*number))
+                }
+            },
+        }
+    }
+
+    /// Its pixels as colours; numbers are grey.
+    pub fn pixels(&self) -> Cow<'_, [Vec3]> {
+        match self {
+            Self::Frame(frame) => Cow::Borrowed(&frame.image),
+            Self::Kept(picture) => Cow::Borrowed(&picture.pixels),
+            Self::Engine(picture) => match &picture.values {
+                Values::Colour(pixels) => Cow::Borrowed(pixels),
+                Values::Scalar(numbers) => numbers.iter().map(|number| Vec3::splat(*number)).collect(),
+            },
+        }
+    }
+
+    /// The scale of its numbers, if it holds numbers instead of colours.
+    pub fn scale(&self) -> Option<Scale> {
+        let Self::Engine(picture) = self else { return None };
+        let engine::Source::Strategy(_, mode) = picture.source else { return None };
+        if mode.is_colour() {
+            return None;
+        }
+        let high = picture.range.map_or(1.0, |range| range[1]).max(f32::MIN_POSITIVE);
+        Some(match mode {
+            Mode::Weight => Scale::Linear(1.0),
+            Mode::Variance => Scale::Logarithmic(high),
+            _ => Scale::Linear(high),
+        })
+    }
+}
+
+/// How numbers become false colours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scale {
+    /// From 0 to this.
+    Linear(f32),
+    /// The twelve stops below this.
+    Logarithmic(f32),
+}
+
+/// Stops of a logarithmic scale.
+const STOPS: f32 = 12.0;
+
+impl Scale {
+    /// Where a number lies, 0…1.
+    pub fn place(self, value: f32) -> f32 {
+        match self {
+            Self::Linear(high) => value / high,
+            Self::Logarithmic(high) => 1.0 + (value / high).log2() / STOPS,
+        }
+    }
+
+    /// The number at a place.
+    pub fn at(self, place: f32) -> f32 {
+        match self {
+            Self::Linear(high) => place * high,
+            Self::Logarithmic(high) => high * ((place - 1.0) * STOPS).exp2(),
+        }
+    }
+}
+
+/// A picture, and what tells it from an older state of itself.
+#[derive(Clone)]
+pub struct Sourced {
+    /// Which one.
+    pub source: Source,
+    /// Differs where the pixels do.
+    pub stamp: [u64; 2],
+    /// The pixels.
+    pub content: Content,
+}
+
+/// Why there is no picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Missing {
+    /// It is being made.
+    Coming,
+    /// It has another size than the film.
+    Size([u32; 2]),
+    /// The strategy does not take part.
+    NotThere,
+}
+
+/// Finds a picture.
+pub fn find(state: &State, live: &Live, source: Source) -> Result<Sourced, Missing> {
+    let found = match source {
+        Source::Image => {
+            let frame = live.frame().ok_or(Missing::Coming)?;
+            Sourced { source, stamp: [0, live.frame_number()], content: Content::Frame(Arc::clone(frame)) }
+        }
+        Source::Strategy(strategy, mode) => {
+            if live.existence().absence(strategy).is_some() || !state.settings.strategies.contains(strategy) {
+                return Err(Missing::NotThere);
+            }
+            let asked = live.engine().and_then(|engine| engine.picture(engine::Source::Strategy(strategy, mode)));
+            let picture = asked.ok_or(Missing::Coming)?;
+            Sourced { source, stamp: [picture.generation, picture.spp.to_bits()], content: Content::Engine(picture) }
+        }
+        Source::Kept(id) => {
+            let kept = state.compare.kept.iter().find(|kept| kept.id == id).ok_or(Missing::NotThere)?;
+            Sourced { source, stamp: [0, u64::from(id)], content: Content::Kept(Arc::clone(&kept.picture)) }
+        }
+    };
+    match found.content.size() {
+        size if size == state.size => Ok(found),
+        // The image follows in a moment.
+        _ if !matches!(source, Source::Kept(_)) => Err(Missing::Coming),
+        size => Err(Missing::Size(size)),
+    }
+}
+
+/// The texts of a mode of the strategies' pictures.
+pub fn mode_text(mode: Mode) -> ViewText {
+    match mode {
+        Mode::Weighted => ViewText::ModeWeighted,
+        Mode::Raw => ViewText::ModeRaw,
+        Mode::Weight => ViewText::ModeWeight,
+        Mode::Count => ViewText::ModeCount,
+        Mode::Variance => ViewText::ModeVariance,
+    }
+}
+
+/// A few words: "image", "(2,2) weighted", "kept 3".
+pub fn short_name(state: &State, source: Source) -> String {
+    match source {
+        Source::Image => state.say(ViewText::TheImage).to_owned(),
+        Source::Strategy(strategy, mode) => format!("({},{}) {}", strategy.s, strategy.t, state.say(mode_text(mode))),
+        Source::Kept(id) => match state.compare.kept.iter().find(|kept| kept.id == id) {
+            Some(Kept { about: About::File(name), .. }) => name.clone(),
+            _ => fill(state.say(ViewText::KeptNumber), &[&id.to_string()]),
+        },
+    }
+}
+
+/// All there is to say: which picture, by which estimator, of how many samples in which time.
+pub fn name(state: &State, live: &Live, source: Source) -> String {
+    let what = match source {
+        Source::Strategy(strategy, mode) => format!("{}, {}", full_name(strategy, state.prefs.lang), state.say(mode_text(mode))),
+        _ => short_name(state, source),
+    };
+    match rendered(state, live, source) {
+        Some(rendered) => format!("{what} · {}", describe(&rendered, source, state.prefs.lang)),
+        None => what,
+    }
+}
+
+/// What a picture was rendered with, if it was.
+pub fn rendered(state: &State, live: &Live, source: Source) -> Option<Rendered> {
+    if let Source::Kept(id) = source {
+        let kept = state.compare.kept.iter().find(|kept| kept.id == id)?;
+        return match &kept.about {
+            About::Rendered(rendered) => Some(rendered.clone()),
+            About::File(_) => None,
+        };
+    }
+    let (frame, job) = (live.frame()?, live.engine()?.job());
+    Some(Rendered {
+        source,
+        scene: job.scene.name.clone(),
+        settings: job.settings,
+        hidden: state.left_out(&live.existence()).0,
+        spp: frame.stats.spp,
+        seconds: frame.stats.seconds,
+    })
+}
+
+/// "BDPT · power β = 2 · 64 spp · 3.2 s"; what is shown itself needs no second word of what it is.
+fn describe(rendered: &Rendered, shown: Source, lang: Lang) -> String {
+    let mut words = Vec::new();
+    if let (Source::Kept(_), Source::Strategy(strategy, mode)) = (shown, rendered.source) {
+        words.push(format!("({},{}) {}", strategy.s, strategy.t, mode_text(mode).in_language(lang)));
+    }
+    words.push(integrator(&rendered.settings.strategies, lang).to_owned());
+    words.push(heuristic(&rendered.settings, lang));
+    if rendered.hidden > 0 {
+        words.push(fill(Text::HiddenCount.in_language(lang), &[&rendered.hidden.to_string()]));
+    }
+    let (spp, seconds) = (samples(rendered.spp), format::short(rendered.seconds));
+    words.push(fill(ViewText::SppAndTime.in_language(lang), &[&spp, &seconds]));
+    words.join(" · ")
+}
+
+/// Samples per pixel, whole where they are.
+pub fn samples(spp: f64) -> String {
+    if (spp - spp.round()).abs() < 0.05 { format!("{spp:.0}") } else { format!("{spp:.1}") }
+}
+
+fn integrator(set: &StrategySet, lang: Lang) -> &'static str {
+    if *set == StrategySet::ALL {
+        Text::IntegratorAll.in_language(lang)
+    } else if *set == StrategySet::path_tracer() {
+        Text::IntegratorPt.in_language(lang)
+    } else if *set == StrategySet::light_tracer() {
+        Text::IntegratorLt.in_language(lang)
+    } else {
+        ViewText::SomeStrategies.in_language(lang)
+    }
+}
+
+fn heuristic(settings: &Settings, lang: Lang) -> String {
+    let (text, parameter) = match settings.heuristic.kind {
+        HeuristicKind::Power => (Text::Power, format!(" β = {}", settings.heuristic.beta)),
+        HeuristicKind::Balance => (Text::Balance, String::new()),
+        HeuristicKind::Max => (Text::Max, String::new()),
+        HeuristicKind::Cutoff => (Text::Cutoff, format!(" A = {}", settings.heuristic.cutoff)),
+        HeuristicKind::Uniform => (Text::Uniform, String::new()),
+    };
+    format!("{}{parameter}", text.in_language(lang))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_label_says_estimator_samples_and_time() {
+        let mut rendered =
+            Rendered { source: Source::Image, scene: "cornell".into(), settings: Settings::default(), hidden: 0, spp: 64.0, seconds: 3.21 };
+        assert_eq!(describe(&rendered, Source::Kept(1), Lang::En), "BDPT · power β = 2 · 64 spp, 3.21 s");
+        rendered.settings.strategies = StrategySet::path_tracer();
+        rendered.settings.heuristic.kind = HeuristicKind::Balance;
+        (rendered.hidden, rendered.spp) = (2, 1.25);
+        rendered.source = Source::Strategy(Strategy::new(1, 2), Mode::Raw);
+        assert_eq!(describe(&rendered, Source::Kept(1), Lang::En), "(1,2) raw · PT · balance · 2 hidden · 1.2 spp, 3.21 s");
+    }
+
+    #[test]
+    fn scales_have_ends() {
+        for scale in [Scale::Linear(8.0), Scale::Logarithmic(8.0)] {
+            assert_eq!((scale.place(8.0), scale.at(1.0)), (1.0, 8.0));
+            for value in [0.1, 1.0, 5.0] {
+                assert!((scale.at(scale.place(value)) - value).abs() < 1e-4);
+            }
+        }
+        assert_eq!(Scale::Linear(8.0).place(0.0), 0.0);
+        assert_eq!(Scale::Logarithmic(8.0).place(0.0), f32::NEG_INFINITY, "viridis brings it in");
+    }
+}

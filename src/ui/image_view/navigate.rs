@@ -1,0 +1,54 @@
+//! Zoom around the cursor, pan, and the click that picks a pixel.
+
+use super::super::state::{Placement, State};
+use eframe::egui::{Rect, Response, Ui, Vec2, vec2};
+
+/// Zoom, pan and pick; where the film ends up.
+pub fn show(ui: &Ui, state: &mut State, response: &Response, panel: Rect) -> Rect {
+    let size = vec2(state.size[0] as f32, state.size[1] as f32);
+    let (mut zoom, mut centre) = match state.placement {
+        Placement::Fit => (fit_zoom(size, panel), size * 0.5),
+        Placement::Free { zoom, centre } => (zoom, centre),
+    };
+    let mut moved = std::mem::take(&mut state.view.one_to_one);
+    if moved {
+        zoom = 1.0 / ui.pixels_per_point();
+    }
+    if response.dragged() {
+        centre -= response.drag_delta() / zoom;
+        moved |= response.drag_delta() != Vec2::ZERO;
+    }
+    if let Some(cursor) = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer()) {
+        let factor = ui.input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y * 0.004).exp());
+        if factor != 1.0 {
+            let under = centre + (cursor - panel.center()) / zoom;
+            zoom = (zoom * factor).clamp(0.05, 200.0);
+            centre = under - (cursor - panel.center()) / zoom;
+            moved = true;
+        }
+    }
+    if moved {
+        // Some of the image stays in sight, whatever happens.
+        centre = centre.clamp(Vec2::ZERO, size);
+        state.placement = Placement::Free { zoom, centre };
+    }
+    let image = Rect::from_min_size(panel.center() - centre * zoom, size * zoom);
+    if let Some(cursor) = response.interact_pointer_pos().filter(|_| response.clicked()) {
+        let at = (cursor - image.min) / zoom;
+        if at.x >= 0.0 && at.y >= 0.0 && at.x < size.x && at.y < size.y {
+            if state.picking_focus {
+                (state.picking_focus, state.focus_on) = (false, Some([at.x as u32, at.y as u32]));
+            } else {
+                state.select_pixel(at.x as i64, at.y as i64);
+            }
+        }
+    }
+    image
+}
+
+fn fit_zoom(size: Vec2, panel: Rect) -> f32 {
+    let room = (panel.size() - vec2(16.0, 16.0)).max(vec2(16.0, 16.0));
+    let zoom = (room.x / size.x).min(room.y / size.y);
+    // Whole multiples keep the pixels even, where they cost little room.
+    if zoom > 3.0 { zoom.floor() } else { zoom }
+}

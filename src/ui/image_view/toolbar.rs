@@ -1,0 +1,139 @@
+//! The view's toolbar: which picture, how bright, and what is drawn over it.
+
+use super::super::compare::{self, Pair, Source};
+use super::super::keys::{self, Action};
+use super::super::live::Live;
+use super::super::state::{Maximised, Placement, State};
+use super::super::text::{Text, ViewText};
+use super::super::widgets::{keep_together, labelled};
+use crate::engine::Mode;
+use crate::film::tonemap::{ToneMap, fitting_exposure};
+use eframe::egui::{Button, ComboBox, DragValue, Ui};
+
+/// The tone maps' names, and what they do.
+const TONE_MAPS: [(ToneMap, ViewText); 4] = [
+    (ToneMap::Srgb, ViewText::HelpSrgb),
+    (ToneMap::Aces, ViewText::HelpAces),
+    (ToneMap::Reinhard, ViewText::HelpReinhard),
+    (ToneMap::FalseColour, ViewText::HelpFalseColour),
+];
+
+fn tone_name(state: &State, tonemap: ToneMap) -> &'static str {
+    match tonemap {
+        ToneMap::Srgb => "sRGB",
+        ToneMap::Aces => "ACES",
+        ToneMap::Reinhard => "Reinhard",
+        ToneMap::FalseColour => state.say(ViewText::FalseColour),
+    }
+}
+
+/// Shows it.
+pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
+    source(ui, state, live);
+    looks(ui, state, live);
+    ui.separator();
+    if ui.button(state.say(Text::Fit)).on_hover_text(keys::hint(state, Text::KeyFit, Action::Fit)).clicked() {
+        state.placement = Placement::Fit;
+    }
+    let hint = keys::hint(state, Text::KeyOneToOne, Action::OneToOne);
+    if ui.button(state.say(ViewText::OneToOne)).on_hover_text(hint).clicked() {
+        state.view.one_to_one = true;
+    }
+    show_menu(ui, state);
+    let label = state.say(Text::Camera);
+    ui.toggle_value(&mut state.prefs.camera_open, label).on_hover_text(Text::HelpCameraRow.in_language(state.prefs.lang));
+    let hint = keys::hint(state, ViewText::HelpCompare, Action::Compare);
+    if ui.add(Button::new(state.say(ViewText::Compare)).selected(state.compare.open)).on_hover_text(hint).clicked() {
+        state.compare.toggle();
+    }
+    let alone = state.maximised == Maximised::Image;
+    let button = Button::new(state.say(Text::Maximise)).selected(alone);
+    if ui.add(button).on_hover_text(state.say(Text::HelpMaximise)).clicked() {
+        state.maximised = if alone { Maximised::None } else { Maximised::Image };
+    }
+}
+
+/// Which picture is on show, and what of a strategy.
+fn source(ui: &mut Ui, state: &mut State, live: &Live) {
+    let help = state.say(ViewText::HelpSource);
+    let name = state.say(ViewText::ShowSource);
+    if let Some(source) = compare::choose(ui, state, live, (name, help, Some(state.compare.a))) {
+        state.compare.a = source;
+    }
+    if let Source::Strategy(strategy, mode) = state.compare.a {
+        let help = state.say(ViewText::HelpOpenLarge);
+        let combo = ComboBox::from_id_salt("mode of the picture").selected_text(state.say(compare::mode_text(mode))).width(70.0);
+        let response = combo.show_ui(ui, |ui| {
+            for (other, help) in compare::MODES {
+                if ui.selectable_label(other == mode, state.say(compare::mode_text(other))).on_hover_text(state.say(help)).clicked() {
+                    state.compare.a = Source::Strategy(strategy, other);
+                }
+            }
+        });
+        let name = state.say(ViewText::ModeOf);
+        response.response.widget_info(|| eframe::egui::WidgetInfo::labeled(eframe::egui::Role::ComboBox, true, name));
+        response.response.on_hover_text(help);
+    } else {
+        let selected = Source::Strategy(state.selection.strategy, Mode::Weighted);
+        let there = compare::takes_part(state, live, state.selection.strategy);
+        let button = ui.add_enabled(there, Button::new(state.say(ViewText::OpenLarge)));
+        if button.on_hover_text(state.say(ViewText::HelpOpenLarge)).on_disabled_hover_text(state.say(ViewText::NotThere)).clicked() {
+            state.compare.a = selected;
+        }
+    }
+}
+
+fn looks(ui: &mut Ui, state: &mut State, live: &Live) {
+    keep_together(ui, 190.0);
+    let hint = keys::hint(state, Text::HelpExposure, Action::Exposure);
+    let exposure = state.say(Text::Exposure);
+    labelled(ui, exposure, &hint, |ui| {
+        ui.add(DragValue::new(&mut state.exposure).range(-20.0..=20.0).speed(0.05).fixed_decimals(1).suffix(" EV"))
+    });
+    if ui.button(state.say(ViewText::Auto)).on_hover_text(state.say(ViewText::HelpAuto)).clicked() {
+        (state.exposure, state.view.offset) = (exposure_of(&Pair::find(state, live), state).clamp(-20.0, 20.0), 0.0);
+    }
+    keep_together(ui, 110.0);
+    let hint = keys::hint(state, ViewText::HelpOffset, Action::Offset);
+    let offset = state.say(ViewText::Offset);
+    labelled(ui, offset, &hint, |ui| ui.add(DragValue::new(&mut state.view.offset).range(-10.0..=10.0).speed(0.01).max_decimals(2)));
+    keep_together(ui, 130.0);
+    let label = ui.label(state.say(Text::ToneMapping));
+    let combo = ComboBox::from_id_salt("tone map").selected_text(tone_name(state, state.tonemap)).width(76.0);
+    let response = combo.show_ui(ui, |ui| {
+        for (map, help) in TONE_MAPS {
+            let name = tone_name(state, map);
+            ui.selectable_value(&mut state.tonemap, map, name).on_hover_text(help.in_language(state.prefs.lang));
+        }
+    });
+    response.response.labelled_by(label.id).on_hover_text(state.say(Text::HelpToneMapping));
+}
+
+/// The exposure that fits what is on show.
+fn exposure_of(pair: &Pair, state: &State) -> f32 {
+    match pair.shown_pixels(state.compare.metric) {
+        Some(pixels) => fitting_exposure(&pixels),
+        None => state.exposure,
+    }
+}
+
+fn show_menu(ui: &mut Ui, state: &mut State) {
+    let lang = state.prefs.lang;
+    let shown = &mut state.prefs.shown;
+    ui.menu_button(Text::Show.in_language(lang), |ui| {
+        let rows = [
+            (&mut shown.eye, Text::LegendEye),
+            (&mut shown.light, Text::LegendLight),
+            (&mut shown.connections, Text::LegendConnection),
+            (&mut shown.blocked, Text::LegendBlocked),
+            (&mut shown.splats, Text::LegendSplat),
+            (&mut shown.names, Text::ShowNames),
+            (&mut shown.legend, Text::ShowLegend),
+        ];
+        for (flag, text) in rows {
+            ui.checkbox(flag, text.in_language(lang));
+        }
+    })
+    .response
+    .on_hover_text(Text::HelpShow.in_language(lang));
+}

@@ -1,0 +1,3 @@
+//! The image view: what it shows, in colours and in numbers.
+
+use super::*;
