@@ -78,8 +78,10 @@ pub struct Raster {
 impl Raster {
     /// Makes what is needed on a device.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
-        let module = device
-            .create_shader_module(wgpu::ShaderModuleDescriptor { label: Some("surfaces"), source: wgpu::ShaderSource::Wgsl(SHADER.into()) });
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("surfaces"),
+            source: wgpu::ShaderSource::Wgsl(SHADER.into()),
+        });
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("surfaces"),
             entries: &[wgpu::BindGroupLayoutEntry {

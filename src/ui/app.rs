@@ -7,6 +7,7 @@ use super::text::{Text, fill};
 use super::wake::Wake;
 use super::{help, image_view, inspector, keys, messages, pyramid, scene_menu, space, status_bar, theme, top_bar};
 use eframe::egui::{self, Align2, CentralPanel, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
+use eframe::egui_wgpu::RenderState;
 use web_time::Instant;
 
 /// What the other panels leave to the image with its toolbar, points.
@@ -30,6 +31,7 @@ pub struct App {
     live: Live,
     wake: Wake,
     pictures: Pictures,
+    stage: space::Stage,
     image: Rect,
     ui_ms: f32,
 }
@@ -47,6 +49,7 @@ impl App {
             live,
             wake,
             pictures: Pictures::new(ctx),
+            stage: space::Stage::default(),
             image: Rect::NOTHING,
             ui_ms: 0.0,
         }
@@ -60,6 +63,7 @@ impl App {
         let data = old.data(Clone::clone);
         ctx.data_mut(|new| *new = data);
         self.pictures = Pictures::new(ctx);
+        self.stage = space::Stage::default();
     }
 
     /// What a person chose.
@@ -90,8 +94,8 @@ impl App {
         }
     }
 
-    fn panels(&mut self, ui: &mut Ui) {
-        let Self { state, live, pictures, .. } = self;
+    fn panels(&mut self, ui: &mut Ui, gpu: Option<&RenderState>) {
+        let Self { state, live, pictures, stage, .. } = self;
         let bar = |top: i8| Frame::side_top_panel(ui.style()).inner_margin(Margin { left: 10, right: 10, top, bottom: top });
         let (wide, slim) = (bar(6), bar(3));
         Panel::top("top bar").frame(wide).show(ui, |ui| top_bar::show(ui, state, live));
@@ -103,7 +107,7 @@ impl App {
         let whole = CentralPanel::default().frame(body);
         match state.maximised {
             Maximised::Pyramid => return drop(whole.show(ui, |ui| pyramid::show(ui, state, live, pictures))),
-            Maximised::Space => return drop(whole.show(ui, |ui| space::show(ui, state, live))),
+            Maximised::Space => return drop(whole.show(ui, |ui| space::show(ui, state, live, stage, gpu))),
             Maximised::Inspector => return drop(whole.show(ui, |ui| inspector::show(ui, state, live))),
             Maximised::Image => {}
             Maximised::None => {
@@ -122,7 +126,7 @@ impl App {
                 if state.prefs.space_open {
                     let room = ui.available_size();
                     let panel = Panel::right("space").frame(body).resizable(true).default_size(room.x * 0.5);
-                    panel.size_range(200.0..=(room.x - 240.0).max(200.0)).show(ui, |ui| space::show(ui, state, live));
+                    panel.size_range(200.0..=(room.x - 240.0).max(200.0)).show(ui, |ui| space::show(ui, state, live, stage, gpu));
                 }
             }
         }
@@ -160,12 +164,12 @@ impl eframe::App for App {
         self.sync(ctx);
     }
 
-    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+    fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
         let start = Instant::now();
         keys::obey(ui.ctx(), &mut self.state, image_view::id());
         self.pictures.collect(ui.ctx());
         self.drops(ui);
-        self.panels(ui);
+        self.panels(ui, frame.wgpu_render_state());
         help::show(ui.ctx(), &mut self.state);
         keys::release_after_click(ui.ctx());
         // What was changed just now is on its way before the next pass.

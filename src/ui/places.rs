@@ -123,7 +123,10 @@ mod tests {
         let [from, to] = edge(&projector, &lens, &seen, Some([60.0, 50.0]))[0].line;
         assert!((from - pos2(160.0, 50.0)).length() < 0.1 && (to - pos2(150.0, 50.0)).length() < 0.1, "{from:?} {to:?}");
         assert_eq!(edge(&projector, &lens, &seen, None), []);
-        assert_eq!(place(&projector, &lens, Some(&seen), Some([60.0, 50.0])), Some(Place { at: pos2(160.0, 50.0), away: None, hidden: false }));
+        assert_eq!(
+            place(&projector, &lens, Some(&seen), Some([60.0, 50.0])),
+            Some(Place { at: pos2(160.0, 50.0), away: None, hidden: false })
+        );
     }
 
     #[test]

@@ -153,8 +153,13 @@ impl Projection for Projector {
     }
 }
 
-/// The part of a segment inside a rectangle (Liang and Barsky 1984).
+/// The part of a segment inside a rectangle.
 pub fn clip_segment(rect: Rect, a: Pos2, b: Pos2) -> Option<[Pos2; 2]> {
+    clip_range(rect, a, b).map(|range| range.map(|u| a + (b - a) * u))
+}
+
+/// The same as parts of the way from `a` to `b` (Liang and Barsky 1984).
+pub fn clip_range(rect: Rect, a: Pos2, b: Pos2) -> Option<[f32; 2]> {
     let d = b - a;
     if !(d.x.is_finite() && d.y.is_finite()) {
         return None;
@@ -172,7 +177,7 @@ pub fn clip_segment(rect: Rect, a: Pos2, b: Pos2) -> Option<[Pos2; 2]> {
             to = to.min(distance / direction);
         }
     }
-    (from <= to).then(|| [a + d * from, a + d * to])
+    (from <= to).then_some([from, to])
 }
 
 #[cfg(test)]
