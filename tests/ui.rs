@@ -37,6 +37,8 @@ mod scenes;
 mod screenshots;
 #[path = "common/skip.rs"]
 mod skip;
+#[path = "ui/space.rs"]
+mod space;
 #[path = "ui/surfaces.rs"]
 mod surfaces;
 #[path = "ui/surroundings.rs"]

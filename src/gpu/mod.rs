@@ -33,6 +33,7 @@ mod error;
 mod kernels;
 mod memory;
 mod params;
+pub mod raster;
 mod renderer;
 mod scene;
 pub mod shader;

@@ -9,6 +9,7 @@ use super::text::{Text, fill};
 use super::wake::Wake;
 use super::{fonts, help, image_view, inspector, keys, messages, pyramid, scene_menu, space, status_bar, theme, top_bar, tour};
 use eframe::egui::{self, Align2, CentralPanel, Color32, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
+use eframe::egui_wgpu::RenderState;
 use web_time::Instant;
 
 /// What the other panels leave to the image with its toolbar, points.
@@ -34,6 +35,7 @@ pub struct App {
     pictures: Pictures,
     keeper: Keeper,
     darkroom: Darkroom,
+    stage: space::Stage,
     image: Rect,
     ui_ms: f32,
 }
@@ -54,6 +56,7 @@ impl App {
             wake,
             pictures: Pictures::new(ctx),
             darkroom: Darkroom::new(ctx),
+            stage: space::Stage::default(),
             image: Rect::NOTHING,
             ui_ms: 0.0,
         }
@@ -69,6 +72,7 @@ impl App {
         ctx.data_mut(|new| *new = data);
         self.pictures = Pictures::new(ctx);
         self.darkroom = Darkroom::new(ctx);
+        self.stage = space::Stage::default();
     }
 
     /// What a person chose.
@@ -100,8 +104,8 @@ impl App {
         }
     }
 
-    fn panels(&mut self, ui: &mut Ui) {
-        let Self { state, live, pictures, darkroom, .. } = self;
+    fn panels(&mut self, ui: &mut Ui, gpu: Option<&RenderState>) {
+        let Self { state, live, pictures, darkroom, stage, .. } = self;
         // The window is cleared to the panels' ground: painting it once more would cost a software adapter a whole frame's time.
         let bar = |top: i8| {
             Frame::side_top_panel(ui.style()).fill(Color32::TRANSPARENT).inner_margin(Margin { left: 10, right: 10, top, bottom: top })
@@ -119,7 +123,7 @@ impl App {
         let whole = CentralPanel::default().frame(body);
         match state.maximised {
             Maximised::Pyramid => return drop(whole.show(ui, |ui| pyramid::show(ui, state, live, pictures))),
-            Maximised::Space => return drop(whole.show(ui, |ui| space::show(ui, state, live))),
+            Maximised::Space => return drop(whole.show(ui, |ui| space::show(ui, state, live, stage, gpu))),
             Maximised::Inspector => return drop(whole.show(ui, |ui| inspector::show(ui, state, live))),
             Maximised::Image => {}
             Maximised::None => {
@@ -138,7 +142,7 @@ impl App {
                 if state.prefs.space_open {
                     let room = ui.available_size();
                     let panel = Panel::right("space").frame(body).resizable(true).default_size(room.x * 0.5);
-                    panel.size_range(200.0..=(room.x - 240.0).max(200.0)).show(ui, |ui| space::show(ui, state, live));
+                    panel.size_range(200.0..=(room.x - 240.0).max(200.0)).show(ui, |ui| space::show(ui, state, live, stage, gpu));
                 }
             }
         }
@@ -176,13 +180,13 @@ impl eframe::App for App {
         self.sync(ctx);
     }
 
-    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+    fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
         let start = Instant::now();
         keys::obey(ui.ctx(), &mut self.state, image_view::id());
         self.pictures.collect(ui.ctx());
         self.darkroom.collect(ui.ctx());
         self.drops(ui);
-        self.panels(ui);
+        self.panels(ui, frame.wgpu_render_state());
         help::show(ui.ctx(), &mut self.state);
         keys::release_after_click(ui.ctx());
         // What was changed just now is on its way before the next pass.
