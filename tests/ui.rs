@@ -17,6 +17,8 @@ use std::time::{Duration, Instant};
 
 #[path = "ui/existence.rs"]
 mod existence;
+#[path = "ui/gallery.rs"]
+mod gallery;
 #[path = "common/glb.rs"]
 mod glb;
 #[path = "ui/layout.rs"]
