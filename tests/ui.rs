@@ -7,7 +7,7 @@ use bdpt_explorer::math::Vec3;
 use bdpt_explorer::scene::{Scene, builtin};
 use bdpt_explorer::ui::keys::TABLE;
 use bdpt_explorer::ui::state::Opening;
-use bdpt_explorer::ui::text::{Lang, Text};
+use bdpt_explorer::ui::text::{Lang, LooksText, Text};
 use bdpt_explorer::ui::{App, SceneSource, Start};
 use eframe::egui::{self, Key, Modifiers, PointerButton, Pos2, Role};
 use egui_kittest::Harness;
@@ -17,14 +17,20 @@ use std::time::{Duration, Instant};
 
 #[path = "ui/existence.rs"]
 mod existence;
+#[path = "ui/gallery.rs"]
+mod gallery;
 #[path = "common/glb.rs"]
 mod glb;
 #[path = "ui/layout.rs"]
 mod layout;
 #[path = "ui/lens.rs"]
 mod lens;
+#[path = "ui/looks.rs"]
+mod looks;
 #[path = "ui/measure.rs"]
 mod measure;
+#[path = "ui/random.rs"]
+mod random;
 #[path = "ui/renderer.rs"]
 mod renderer;
 #[path = "ui/scenes.rs"]
@@ -33,10 +39,14 @@ mod scenes;
 mod screenshots;
 #[path = "common/skip.rs"]
 mod skip;
+#[path = "ui/space.rs"]
+mod space;
 #[path = "ui/surfaces.rs"]
 mod surfaces;
 #[path = "ui/surroundings.rs"]
 mod surroundings;
+#[path = "ui/tour.rs"]
+mod tour;
 #[path = "ui/view.rs"]
 mod view;
 #[path = "ui/view_looks.rs"]
@@ -47,8 +57,6 @@ const SIZE: [u32; 2] = [64, 64];
 fn start(source: SceneSource) -> Harness<'static, App> {
     Harness::builder()
         .with_size(egui::vec2(1440.0, 900.0))
-        // The language switch is written in Chinese, for which the test has no font.
-        .allow_missing_glyphs()
         .build_eframe(|context| App::new(Start { source, size: SIZE }, &context.egui_ctx, None))
 }
 
@@ -88,6 +96,11 @@ fn click_at(window: &mut Harness<'static, App>, at: Pos2) {
 fn click(window: &mut Harness<'static, App>, role: Role, label: &str) {
     window.get_by_role_and_label(role, label).click();
     window.run_steps(3);
+}
+
+/// Opens the menu of the renderer, the film's size and the random numbers.
+fn rendering_menu(window: &mut Harness<'static, App>, lang: Lang) {
+    click(window, Role::Button, &format!("{} ⏷", LooksText::Rendering.in_language(lang)));
 }
 
 fn press(window: &mut Harness<'static, App>, key: Key) {
@@ -249,6 +262,7 @@ fn path_length_and_heuristic_restart() {
     assert_eq!(window.state().live().engine().expect("an engine").job().settings.heuristic.kind, HeuristicKind::Balance);
     assert_eq!(generation(&window), before + 1);
     let before = generation(&window);
+    rendering_menu(&mut window, Lang::En);
     window.get_by_role_and_label(Role::CheckBox, "Roulette").click();
     window.run_steps(3);
     assert_eq!(generation(&window), before + 1);
@@ -294,7 +308,7 @@ fn keys_do_what_the_table_says_but_not_while_typing() {
     press(&mut window, Key::H);
     assert!(window.state().state().hidden.contains(Strategy::new(2, 1)));
     // In a field, the same keys are text.
-    window.get_by_role_and_label(Role::SpinButton, "Seed").click();
+    window.get_by_role_and_label(Role::SpinButton, "K").click();
     window.run_steps(2);
     let sample = window.state().state().selection.sample;
     press(&mut window, Key::N);

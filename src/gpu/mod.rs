@@ -34,6 +34,7 @@ mod kernels;
 mod memory;
 mod params;
 mod probe;
+pub mod raster;
 mod renderer;
 mod scene;
 pub mod shader;

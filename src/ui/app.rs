@@ -6,8 +6,9 @@ use super::pictures::Pictures;
 use super::state::{Maximised, Opening, Preferences, State};
 use super::text::{Text, fill};
 use super::wake::Wake;
-use super::{help, image_view, inspector, keys, messages, pyramid, scene_menu, space, status_bar, theme, top_bar};
-use eframe::egui::{self, Align2, CentralPanel, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
+use super::{fonts, help, image_view, inspector, keys, messages, pyramid, scene_menu, space, status_bar, theme, top_bar, tour};
+use eframe::egui::{self, Align2, CentralPanel, Color32, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
+use eframe::egui_wgpu::RenderState;
 use web_time::Instant;
 
 /// What the other panels leave to the image with its toolbar, points.
@@ -32,6 +33,7 @@ pub struct App {
     wake: Wake,
     pictures: Pictures,
     desk: Desk,
+    stage: space::Stage,
     image: Rect,
     ui_ms: f32,
 }
@@ -40,6 +42,7 @@ impl App {
     /// A window that shows `start`; nothing here needs a real one.
     pub fn new(start: Start, ctx: &egui::Context, storage: Option<&dyn eframe::Storage>) -> Self {
         let preferences: Option<Preferences> = storage.and_then(|storage| eframe::get_value(storage, PREFERENCES));
+        fonts::install(ctx);
         theme::install(ctx);
         let wake = Wake::new(ctx);
         let mut live = Live::new(&wake);
@@ -50,6 +53,7 @@ impl App {
             desk: Desk::new(ctx, &wake),
             wake,
             pictures: Pictures::new(ctx),
+            stage: space::Stage::default(),
             image: Rect::NOTHING,
             ui_ms: 0.0,
         }
@@ -57,6 +61,7 @@ impl App {
 
     /// Goes on in another window. What is rendered goes on, too; only what the old window drew with is made anew.
     pub fn move_to(&mut self, ctx: &egui::Context) {
+        fonts::install(ctx);
         theme::install(ctx);
         let old = self.wake.move_to(ctx);
         // Widths of panels, positions of scroll bars.
@@ -64,6 +69,7 @@ impl App {
         ctx.data_mut(|new| *new = data);
         self.pictures = Pictures::new(ctx);
         self.desk.move_to(ctx);
+        self.stage = space::Stage::default();
     }
 
     /// What a person chose.
@@ -95,20 +101,26 @@ impl App {
         }
     }
 
-    fn panels(&mut self, ui: &mut Ui) {
-        let Self { state, live, pictures, desk, .. } = self;
-        let bar = |top: i8| Frame::side_top_panel(ui.style()).inner_margin(Margin { left: 10, right: 10, top, bottom: top });
+    fn panels(&mut self, ui: &mut Ui, gpu: Option<&RenderState>) {
+        let Self { state, live, pictures, desk, stage, .. } = self;
+        // The window is cleared to the panels' ground: painting it once more would cost a software adapter a whole frame's time.
+        let bar = |top: i8| {
+            Frame::side_top_panel(ui.style()).fill(Color32::TRANSPARENT).inner_margin(Margin { left: 10, right: 10, top, bottom: top })
+        };
         let (wide, slim) = (bar(6), bar(3));
         Panel::top("top bar").frame(wide).show(ui, |ui| top_bar::show(ui, state, live));
         if !state.messages.is_empty() {
             Panel::top("messages").frame(slim).show(ui, |ui| messages::show(ui, state));
         }
+        if tour::is_open(state) {
+            Panel::top("tour").frame(slim).show(ui, |ui| tour::show(ui, state));
+        }
         Panel::bottom("status bar").frame(slim).show(ui, |ui| status_bar::show(ui, state, live, self.ui_ms));
-        let body = Frame::central_panel(ui.style()).inner_margin(Margin::symmetric(10, 8));
+        let body = Frame::central_panel(ui.style()).fill(Color32::TRANSPARENT).inner_margin(Margin::symmetric(10, 8));
         let whole = CentralPanel::default().frame(body);
         match state.maximised {
             Maximised::Pyramid => return drop(whole.show(ui, |ui| pyramid::show(ui, state, live, pictures))),
-            Maximised::Space => return drop(whole.show(ui, |ui| space::show(ui, state, live))),
+            Maximised::Space => return drop(whole.show(ui, |ui| space::show(ui, state, live, stage, gpu))),
             Maximised::Inspector => return drop(whole.show(ui, |ui| inspector::show(ui, state, live))),
             Maximised::Image => {}
             Maximised::None => {
@@ -127,7 +139,7 @@ impl App {
                 if state.prefs.space_open {
                     let room = ui.available_size();
                     let panel = Panel::right("space").frame(body).resizable(true).default_size(room.x * 0.5);
-                    panel.size_range(200.0..=(room.x - 240.0).max(200.0)).show(ui, |ui| space::show(ui, state, live));
+                    panel.size_range(200.0..=(room.x - 240.0).max(200.0)).show(ui, |ui| space::show(ui, state, live, stage, gpu));
                 }
             }
         }
@@ -161,17 +173,17 @@ impl App {
 
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
-        theme::choose(ctx, self.state.prefs.dark);
+        theme::choose(ctx, &self.state.prefs);
         self.sync(ctx);
     }
 
-    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+    fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
         let start = Instant::now();
         keys::obey(ui.ctx(), &mut self.state, image_view::id());
         self.pictures.collect(ui.ctx());
         self.desk.darkroom.collect(ui.ctx());
         self.drops(ui);
-        self.panels(ui);
+        self.panels(ui, frame.wgpu_render_state());
         help::show(ui.ctx(), &mut self.state);
         keys::release_after_click(ui.ctx());
         // What was changed just now is on its way before the next pass.
@@ -179,6 +191,10 @@ impl eframe::App for App {
         self.sync(&ctx);
         // Smoothed, so that it can be read.
         self.ui_ms += 0.1 * (start.elapsed().as_secs_f32() * 1e3 - self.ui_ms);
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {

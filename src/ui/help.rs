@@ -22,6 +22,11 @@ pub fn show(ctx: &egui::Context, state: &mut State) {
                     ui.label(state.say(row.text));
                     ui.end_row();
                 }
+                for row in keys::SPACE {
+                    ui.label(RichText::new(row.shown).monospace());
+                    ui.label(state.say(row.text));
+                    ui.end_row();
+                }
             });
             ui.add_space(8.0);
             for text in [Text::HelpMouse, Text::HelpLensDrawing, Text::Letters] {

@@ -1,7 +1,8 @@
 //! Every key, in one table: it is what the program obeys, what the help window lists and what tooltips quote.
 
+use super::space;
 use super::state::{Placement, Source, State};
-use super::text::{Text, Words};
+use super::text::{SpaceText, Text, Words};
 use crate::bdpt::Strategy;
 use crate::engine::Mode;
 use eframe::egui;
@@ -48,6 +49,14 @@ pub enum Action {
     Focus,
     /// The list of keys.
     Help,
+    /// The 3-D view frames the selection.
+    Frame,
+    /// It turns about its pivot.
+    Orbit,
+    /// It goes nearer or farther.
+    Dolly,
+    /// It flies while a key is held.
+    Fly,
 }
 
 /// A row of the table.
@@ -58,7 +67,8 @@ pub struct Binding {
     pub shown: &'static str,
     /// What it does, in words.
     pub text: Text,
-    keys: &'static [Key],
+    /// The same, as the system names them.
+    pub keys: &'static [Key],
     /// Does Shift turn it round (or enlarge the step)?
     shift: bool,
 }
@@ -93,6 +103,28 @@ pub const TABLE: &[Binding] = &[
     Binding { action: Action::Help, shown: "?", text: Text::KeyHelp, keys: &[Key::Questionmark], shift: true },
 ];
 
+/// What keys do in the 3-D view, while it has the pointer or the focus; there they come first.
+pub const SPACE: &[SpaceBinding] = &[
+    SpaceBinding { action: Action::Frame, shown: "F", text: SpaceText::KeyFrame, keys: &[Key::F] },
+    SpaceBinding { action: Action::Orbit, shown: "←  →  ↑  ↓", text: SpaceText::KeyOrbit, keys: ARROWS },
+    SpaceBinding { action: Action::Dolly, shown: "+, −", text: SpaceText::KeyDolly, keys: &[Key::Plus, Key::Equals, Key::Minus] },
+    SpaceBinding { action: Action::Fly, shown: "W A S D Q E", text: SpaceText::KeyFly, keys: FLIGHT },
+];
+
+/// A row of that table.
+pub struct SpaceBinding {
+    /// What it does.
+    pub action: Action,
+    /// The keys, as they are written.
+    pub shown: &'static str,
+    /// What it does, in words.
+    pub text: SpaceText,
+    keys: &'static [Key],
+}
+
+/// Ahead, left, back, right, down, up.
+const FLIGHT: &[Key] = &[Key::W, Key::A, Key::S, Key::D, Key::Q, Key::E];
+
 const ARROWS: &[Key] = &[Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown];
 const DIGITS: &[Key] = &[Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
 
@@ -102,6 +134,32 @@ pub fn hint(state: &State, text: impl Words, action: Action) -> String {
     format!("{}  [{keys}]", state.say(text))
 }
 
+/// The same for the 3-D view.
+pub fn space_hint(state: &State, text: impl Words, action: Action) -> String {
+    let keys = SPACE.iter().find(|row| row.action == action).map_or("", |row| row.shown);
+    format!("{}  [{keys}]", state.say(text))
+}
+
+/// Where the keys held down fly to: right, up, ahead.
+pub fn flight(ctx: &egui::Context) -> [f32; 3] {
+    let held = |index: usize| FLIGHT.get(index).map_or(0.0, |key| f32::from(u8::from(ctx.input(|input| input.key_down(*key)))));
+    [held(3) - held(1), held(5) - held(4), held(0) - held(2)]
+}
+
+/// Does the 3-D view take this key? Then it does what it says.
+fn in_space(state: &mut State, pressed: Key) -> bool {
+    let attention = state.space.attention;
+    let heard = |action| match action {
+        Action::Orbit => attention.focus,
+        Action::Fly => attention.flying,
+        _ => attention.focus || attention.pointer,
+    };
+    let index = |row: &SpaceBinding| row.keys.iter().position(|key| *key == pressed);
+    let Some((row, index)) = SPACE.iter().filter(|row| heard(row.action)).find_map(|row| Some((row, index(row)?))) else { return false };
+    perform(state, row.action, index, false);
+    true
+}
+
 /// Obeys the keys pressed in this pass. A text field with the focus gets them all; a focused widget keeps Space and the arrows.
 pub fn obey(ctx: &egui::Context, state: &mut State, image: egui::Id) {
     if ctx.text_edit_focused() {
@@ -109,6 +167,9 @@ pub fn obey(ctx: &egui::Context, state: &mut State, image: egui::Id) {
     }
     let elsewhere = ctx.memory(|memory| memory.focused()).is_some_and(|id| id != image);
     for (pressed, shift, repeat) in ctx.input(presses) {
+        if in_space(state, pressed) {
+            continue;
+        }
         for row in TABLE {
             let kept = elsewhere && matches!(row.action, Action::Nudge | Action::Vertex);
             if kept || (shift && !row.shift) || (repeat && !row.repeats()) {
@@ -193,6 +254,9 @@ pub fn perform(state: &mut State, action: Action, index: usize, shift: bool) {
         Action::Focus if shift => state.picking_focus = !state.picking_focus,
         Action::Focus => (state.picking_focus, state.focus_on) = (false, Some(state.selection.pixel)),
         Action::Help => state.help = !state.help,
+        Action::Frame | Action::Orbit | Action::Dolly => space::step(state, action, index),
+        // What is held, not what is pressed, flies.
+        Action::Fly => {}
     }
 }
 

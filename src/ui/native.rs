@@ -202,6 +202,10 @@ impl eframe::App for Window<'_> {
         }
     }
 
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
+    }
+
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         if let Some(app) = &mut self.app {
             app.save(storage);

@@ -5,7 +5,7 @@
 //!   is where its other end is seen, so the edge is a point. Through a lens, out of focus, it is the part of the ray between
 //!   that end and the plane of focus, as the lens's centre sees it.
 
-use super::projection::{Projector, clip_segment};
+use super::projection::{Piece, Projection, clip_segment};
 use crate::bdpt::record::VertexRecord;
 use eframe::egui::{Pos2, Vec2, vec2};
 
@@ -21,6 +21,8 @@ pub struct Place {
     pub at: Pos2,
     /// For a vertex at infinity: where it lies from there.
     pub away: Option<Vec2>,
+    /// Does a surface stand before it?
+    pub hidden: bool,
 }
 
 /// Where an edge's end is, for lines: at infinity, far away on the line from the other end.
@@ -32,36 +34,45 @@ pub fn end(vertex: &VertexRecord, other: &VertexRecord) -> [f64; 3] {
     [0, 1, 2].map(|i| q[i] + (p[i] - q[i]) * FAR)
 }
 
-/// The visible part of an edge. `lands` is where its path meets the film, raster pixels.
-pub fn edge(projector: &Projector, a: &VertexRecord, b: &VertexRecord, lands: Option<[f32; 2]>) -> Option<[Pos2; 2]> {
-    let line = match (a.kind, b.kind) {
-        (_, "lens") => clip_segment(projector.clip, projector.point(end(a, b))?, projector.raster(lands?)),
-        ("lens", _) => clip_segment(projector.clip, projector.raster(lands?), projector.point(end(b, a))?),
-        _ => projector.segment(end(a, b), end(b, a)),
+/// The visible parts of an edge. `lands` is where its path meets the film, raster pixels.
+pub fn edge(view: &dyn Projection, a: &VertexRecord, b: &VertexRecord, lands: Option<[f32; 2]>) -> Vec<Piece> {
+    let whole = |line: Option<[Pos2; 2]>| line.map(|line| Piece { line, hidden: false }).into_iter().collect();
+    let film = |lands: Option<[f32; 2]>| lands.and_then(|raster| view.raster(raster));
+    let mut pieces: Vec<Piece> = match (a.kind, b.kind) {
+        (_, "lens") if !view.shows_lens() => {
+            whole(view.point(end(a, b)).zip(film(lands)).and_then(|(p, q)| clip_segment(view.clip(), p, q)))
+        }
+        ("lens", _) if !view.shows_lens() => {
+            whole(film(lands).zip(view.point(end(b, a))).and_then(|(p, q)| clip_segment(view.clip(), p, q)))
+        }
+        _ => view.pieces(end(a, b), end(b, a)),
     };
     // Through a pinhole, the edge to the lens is a point.
-    line.filter(|[p, q]| (*q - *p).length() > 0.5)
+    pieces.retain(|Piece { line: [p, q], .. }| (*q - *p).length() > 0.5);
+    pieces
 }
 
 /// The place of a vertex that has `next` beside it on its path; `None` if it has none in sight.
-pub fn place(projector: &Projector, vertex: &VertexRecord, next: Option<&VertexRecord>, lands: Option<[f32; 2]>) -> Option<Place> {
+pub fn place(view: &dyn Projection, vertex: &VertexRecord, next: Option<&VertexRecord>, lands: Option<[f32; 2]>) -> Option<Place> {
     let at = match (vertex.kind, next) {
-        ("lens", _) => projector.raster(lands?),
-        ("infinity", Some(next)) => return away(projector, vertex, next, lands),
+        ("lens", _) if !view.shows_lens() => view.raster(lands?)?,
+        ("infinity", Some(next)) => return away(view, vertex, next, lands),
         ("infinity", None) => return None,
-        _ => projector.point(vertex.position)?,
+        _ => view.point(vertex.position)?,
     };
-    projector.clip.contains(at).then_some(Place { at, away: None })
+    view.clip().contains(at).then(|| Place { at, away: None, hidden: view.hidden(vertex.position) })
 }
 
-fn away(projector: &Projector, vertex: &VertexRecord, next: &VertexRecord, lands: Option<[f32; 2]>) -> Option<Place> {
-    let Some([from, to]) = edge(projector, next, vertex, lands) else {
+fn away(view: &dyn Projection, vertex: &VertexRecord, next: &VertexRecord, lands: Option<[f32; 2]>) -> Option<Place> {
+    let pieces = edge(view, next, vertex, lands);
+    let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else {
         // Seen directly: straight ahead, so the arrow may point anywhere.
-        let at = projector.point(end(vertex, next)).filter(|at| next.kind == "lens" && projector.clip.contains(*at))?;
-        return Some(Place { at, away: Some(vec2(0.0, -1.0)) });
+        let at = view.point(end(vertex, next)).filter(|at| next.kind == "lens" && view.clip().contains(*at))?;
+        return Some(Place { at, away: Some(vec2(0.0, -1.0)), hidden: false });
     };
-    let inside = clip_segment(projector.clip.shrink(INSET), from, to);
-    Some(Place { at: inside.map_or(to, |[_, to]| to), away: Some((to - from).normalized()) })
+    let (from, to) = (first.line[0], last.line[1]);
+    let inside = clip_segment(view.clip().shrink(INSET), from, to);
+    Some(Place { at: inside.map_or(to, |[_, to]| to), away: Some((to - from).normalized()), hidden: last.hidden })
 }
 
 #[cfg(test)]
@@ -70,6 +81,7 @@ mod tests {
     use crate::bdpt::record::Measure;
     use crate::math::DVec3;
     use crate::scene::builtin;
+    use crate::ui::projection::Projector;
     use eframe::egui::{Rect, pos2};
 
     /// The first camera of the Cornell box on a film of 100² pixels, in a window of 300 × 100 points.
@@ -107,11 +119,14 @@ mod tests {
     fn an_edge_to_the_lens_ends_where_its_path_meets_the_film() {
         let (projector, [eye, axis]) = projector();
         let (seen, lens) = (vertex("surface", eye + axis), vertex("lens", eye));
-        assert_eq!(edge(&projector, &lens, &seen, Some([50.0, 50.0])), None, "in focus it is a point");
-        let [from, to] = edge(&projector, &lens, &seen, Some([60.0, 50.0])).unwrap();
+        assert_eq!(edge(&projector, &lens, &seen, Some([50.0, 50.0])), [], "in focus it is a point");
+        let [from, to] = edge(&projector, &lens, &seen, Some([60.0, 50.0]))[0].line;
         assert!((from - pos2(160.0, 50.0)).length() < 0.1 && (to - pos2(150.0, 50.0)).length() < 0.1, "{from:?} {to:?}");
-        assert_eq!(edge(&projector, &lens, &seen, None), None);
-        assert_eq!(place(&projector, &lens, Some(&seen), Some([60.0, 50.0])), Some(Place { at: pos2(160.0, 50.0), away: None }));
+        assert_eq!(edge(&projector, &lens, &seen, None), []);
+        assert_eq!(
+            place(&projector, &lens, Some(&seen), Some([60.0, 50.0])),
+            Some(Place { at: pos2(160.0, 50.0), away: None, hidden: false })
+        );
     }
 
     #[test]
@@ -119,9 +134,9 @@ mod tests {
         let (projector, [eye, axis]) = projector();
         let seen = vertex("surface", eye + axis);
         let up = vertex("infinity", eye + axis + DVec3::Y * 5.0);
-        let [_, to] = edge(&projector, &seen, &up, None).unwrap();
+        let [_, to] = edge(&projector, &seen, &up, None)[0].line;
         assert!(to.y.abs() < 0.1, "the line leaves at the top: {to:?}");
-        let Place { at, away } = place(&projector, &up, Some(&seen), None).unwrap();
+        let Place { at, away, .. } = place(&projector, &up, Some(&seen), None).unwrap();
         assert!((at - pos2(150.0, INSET)).length() < 0.2 && (away.unwrap() - vec2(0.0, -1.0)).length() < 1e-3, "{at:?} {away:?}");
         // Straight ahead: what the pixel shows.
         let (sky, lens) = (vertex("infinity", eye + axis * 9.0), vertex("lens", eye));

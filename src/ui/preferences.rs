@@ -66,6 +66,12 @@ pub struct Preferences {
     pub lang: Lang,
     /// Dark theme?
     pub dark: bool,
+    /// Stronger text and lines?
+    pub contrast: bool,
+    /// Does nothing move by itself?
+    pub reduced_motion: bool,
+    /// How large everything is drawn; 1 is the system's own size.
+    pub scale: f32,
     /// Who is to render the image.
     pub backend: Backend,
     /// What is drawn over the image.
@@ -74,6 +80,8 @@ pub struct Preferences {
     pub gain: Gain,
     /// Width of a cell of the pyramid, points.
     pub cell: f32,
+    /// The step of the tour that is shown next; beyond the last one there is none.
+    pub tour: usize,
     /// Page of the inspector.
     pub tab: Tab,
     /// Order of the strategies table.
@@ -93,10 +101,14 @@ impl Default for Preferences {
         Self {
             lang: Lang::En,
             dark: true,
+            contrast: false,
+            reduced_motion: false,
+            scale: 1.0,
             backend: Backend::default(),
             shown: Shown { eye: true, light: true, connections: true, blocked: true, splats: true, names: true, legend: true },
             gain: Gain::Each,
             cell: 82.0,
+            tour: 0,
             tab: Tab::Strategies,
             sort: Sort::Length,
             inspector_open: true,

@@ -9,6 +9,7 @@ pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};
 pub use super::space::SpaceState;
 pub use super::study::StudyState;
 use super::text::{Lang, Text, Words};
+pub use super::tour::Before;
 use crate::bdpt::{Existence, Settings, Strategy, StrategySet};
 use crate::engine::Mode;
 use crate::film::tonemap::{Look, ToneMap};
@@ -164,6 +165,8 @@ pub struct State {
     pub checks: ChecksState,
     /// Saving.
     pub export: ExportState,
+    /// How things were when the tour's step began.
+    pub tour: Option<Before>,
     /// What there is to say.
     pub messages: Vec<Message>,
 }
@@ -200,6 +203,7 @@ impl State {
             study: StudyState::default(),
             checks: ChecksState::default(),
             export: ExportState::default(),
+            tour: None,
             messages: Vec::new(),
         }
     }

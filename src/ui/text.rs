@@ -30,17 +30,21 @@ macro_rules! texts {
 mod check;
 mod edit;
 mod export;
+mod looks;
 mod space;
 mod study;
 mod table;
+mod tour;
 mod view;
 
 pub use check::CheckText;
 pub use edit::EditText;
 pub use export::ExportText;
+pub use looks::LooksText;
 pub use space::SpaceText;
 pub use study::StudyText;
 pub use table::Text;
+pub use tour::TourText;
 pub use view::ViewText;
 
 use crate::bdpt::record::SplitReason;
@@ -208,8 +212,10 @@ mod tests {
         check(CheckText::ALL);
         check(EditText::ALL);
         check(ExportText::ALL);
+        check(LooksText::ALL);
         check(SpaceText::ALL);
         check(StudyText::ALL);
+        check(TourText::ALL);
         check(ViewText::ALL);
     }
 

@@ -1,5 +1,6 @@
 //! Colours, type and spacing of both themes. Roles have a shape and a colour (Okabe and Ito's, told apart by everybody).
 
+use super::preferences::Preferences;
 use eframe::egui::{self, Color32, CornerRadius, FontFamily, FontId, Margin, Stroke, Style, TextStyle, Theme, Visuals, vec2};
 
 /// Eye subpath: solid, round vertices.
@@ -38,17 +39,56 @@ pub fn selected_ground(visuals: &Visuals) -> Color32 {
 
 /// Gives the context both themes; done once.
 pub fn install(ctx: &egui::Context) {
-    ctx.set_visuals_of(Theme::Dark, dark());
-    ctx.set_visuals_of(Theme::Light, light());
     ctx.all_styles_mut(type_and_spacing);
+    ctx.options_mut(|options| options.zoom_with_keyboard = false);
+    dress(ctx, false);
 }
 
-/// Chooses a theme.
-pub fn choose(ctx: &egui::Context, dark: bool) {
-    let theme = if dark { Theme::Dark } else { Theme::Light };
+/// Makes the context look as the preferences say.
+pub fn choose(ctx: &egui::Context, prefs: &Preferences) {
+    let theme = if prefs.dark { Theme::Dark } else { Theme::Light };
     if ctx.theme() != theme {
         ctx.set_theme(theme);
     }
+    let style = ctx.global_style();
+    let contrast = style.visuals.widgets.inactive.bg_stroke.width > 0.0;
+    if contrast != prefs.contrast {
+        dress(ctx, prefs.contrast);
+    }
+    let time = if prefs.reduced_motion { 0.0 } else { 1.0 / 12.0 };
+    if style.animation_time != time {
+        ctx.all_styles_mut(|style| {
+            style.animation_time = time;
+            style.scroll_animation = if prefs.reduced_motion { egui::style::ScrollAnimation::none() } else { Default::default() };
+        });
+    }
+    if (ctx.zoom_factor() - prefs.scale).abs() > 1e-3 {
+        ctx.set_zoom_factor(prefs.scale);
+    }
+}
+
+fn dress(ctx: &egui::Context, contrast: bool) {
+    for (theme, mut visuals) in [(Theme::Dark, dark()), (Theme::Light, light())] {
+        if contrast {
+            strengthen(&mut visuals);
+        }
+        ctx.set_visuals_of(theme, visuals);
+    }
+}
+
+/// High contrast: black and white, and an outline around whatever can be clicked.
+fn strengthen(v: &mut Visuals) {
+    let (text, weak, ground, line) = if v.dark_mode { (0xff, 0xd8, 0x00, 0x90) } else { (0x00, 0x2c, 0xff, 0x70) };
+    v.panel_fill = Color32::from_gray(ground);
+    v.window_fill = Color32::from_gray(ground);
+    v.extreme_bg_color = Color32::from_gray(ground);
+    v.override_text_color = Some(Color32::from_gray(text));
+    v.weak_text_color = Some(Color32::from_gray(weak));
+    v.window_stroke = Stroke::new(2.0, Color32::from_gray(line));
+    v.widgets.noninteractive.bg_stroke = Stroke::new(1.5, Color32::from_gray(line));
+    v.widgets.inactive.bg_stroke = Stroke::new(1.0, Color32::from_gray(line));
+    v.widgets.hovered.bg_stroke = Stroke::new(2.0, Color32::from_gray(text));
+    v.selection.stroke = Stroke::new(2.0, Color32::from_gray(text));
 }
 
 fn type_and_spacing(style: &mut Style) {

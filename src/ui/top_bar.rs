@@ -2,16 +2,12 @@
 
 use super::keys::{self, Action};
 use super::live::Live;
-use super::scene_menu;
 use super::state::State;
 use super::text::{Lang, Text};
 use super::widgets::labelled;
+use super::{looks_menu, render_menu, scene_menu};
 use crate::bdpt::{HeuristicKind, Strategy, StrategySet};
-use crate::engine::Backend;
-use eframe::egui::{Align, ComboBox, DragValue, Layout, Response, Role, Ui, UiBuilder, WidgetInfo};
-
-/// Film sizes on offer.
-pub const SIZES: &[[u32; 2]] = &[[128, 128], [256, 256], [512, 512], [768, 768], [1024, 1024], [640, 360], [960, 540]];
+use eframe::egui::{Align, ComboBox, DragValue, Layout, Ui, UiBuilder};
 
 const HEURISTICS: &[(HeuristicKind, Text, Text)] = &[
     (HeuristicKind::Power, Text::Power, Text::HelpPower),
@@ -19,12 +15,6 @@ const HEURISTICS: &[(HeuristicKind, Text, Text)] = &[
     (HeuristicKind::Max, Text::Max, Text::HelpMax),
     (HeuristicKind::Cutoff, Text::Cutoff, Text::HelpCutoff),
     (HeuristicKind::Uniform, Text::Uniform, Text::HelpUniform),
-];
-
-const BACKENDS: &[(Backend, Text, Text)] = &[
-    (Backend::Auto, Text::RendererAuto, Text::HelpRendererAuto),
-    (Backend::Gpu, Text::RendererGpu, Text::HelpRendererGpu),
-    (Backend::Cpu, Text::RendererCpu, Text::HelpRendererCpu),
 ];
 
 /// Shows the bar.
@@ -35,15 +25,11 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
         integrator(ui, state, live);
         heuristic(ui, state);
         numbers(ui, state);
-        film_size(ui, state);
-        renderer(ui, state);
+        render_menu::show(ui, state);
         ui.separator();
         let pause = state.say(if state.paused { Text::Resume } else { Text::Pause });
         if ui.button(pause).on_hover_text(keys::hint(state, Text::KeyPause, Action::Pause)).clicked() {
             state.paused = !state.paused;
-        }
-        if ui.button(state.say(Text::Restart)).on_hover_text(state.say(Text::HelpRestart)).clicked() {
-            state.restart = true;
         }
         at_the_right(ui, |ui| window_switches(ui, state));
     });
@@ -81,10 +67,7 @@ fn window_switches(ui: &mut Ui, state: &mut State) {
     if ui.button(name).on_hover_text(state.say(Text::HelpLanguage)).clicked() {
         state.prefs.lang = other;
     }
-    let theme = state.say(if state.prefs.dark { Text::LightTheme } else { Text::DarkTheme });
-    if ui.button(theme).on_hover_text(state.say(Text::HelpTheme)).clicked() {
-        state.prefs.dark = !state.prefs.dark;
-    }
+    looks_menu::show(ui, state);
     if ui.button("?").on_hover_text(keys::hint(state, Text::KeyHelp, Action::Help)).clicked() {
         state.help = !state.help;
     }
@@ -145,41 +128,4 @@ fn numbers(ui: &mut Ui, state: &mut State) {
     let lang = state.prefs.lang;
     let settings = &mut state.settings;
     labelled(ui, "K", Text::HelpK.in_language(lang), |ui| ui.add(DragValue::new(&mut settings.max_edges).range(1..=64).speed(0.05)));
-    labelled(ui, Text::Seed.in_language(lang), Text::HelpSeed.in_language(lang), |ui| {
-        ui.add(DragValue::new(&mut settings.seed).speed(0.1))
-    });
-    ui.checkbox(&mut settings.roulette, Text::Roulette.in_language(lang)).on_hover_text(Text::HelpRoulette.in_language(lang));
-}
-
-fn film_size(ui: &mut Ui, state: &mut State) {
-    let shown = |size: [u32; 2]| format!("{}×{}", size[0], size[1]);
-    let response = ComboBox::from_id_salt("film size").selected_text(shown(state.size)).width(84.0).show_ui(ui, |ui| {
-        for size in SIZES {
-            if ui.selectable_label(*size == state.size, shown(*size)).clicked() {
-                state.resize(*size);
-            }
-        }
-    });
-    named(response.response, state, Text::FilmSize, Text::HelpFilmSize);
-}
-
-fn renderer(ui: &mut Ui, state: &mut State) {
-    let backend = state.prefs.backend;
-    let current = BACKENDS.iter().find(|(other, ..)| *other == backend).map_or(Text::RendererAuto, |(_, name, _)| *name);
-    let combo = ComboBox::from_id_salt("renderer").selected_text(state.say(current)).width(52.0);
-    let response = combo.show_ui(ui, |ui| {
-        for (other, name, help) in BACKENDS {
-            if ui.selectable_label(*other == backend, state.say(*name)).on_hover_text(state.say(*help)).clicked() {
-                state.prefs.backend = *other;
-            }
-        }
-    });
-    named(response.response, state, Text::Renderer, Text::HelpRenderer);
-}
-
-/// A control that says what it is by itself: the row has no room for its name, which a screen reader and the tooltip tell.
-fn named(response: Response, state: &State, name: Text, help: Text) {
-    let name = state.say(name);
-    response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
-    response.on_hover_text(format!("{name}: {}", state.say(help)));
 }

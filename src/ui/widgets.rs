@@ -4,7 +4,28 @@ use super::text::{Lang, Text, fill};
 use super::theme;
 use crate::bdpt::{Role as StrategyRole, Strategy};
 use eframe::egui::text::{LayoutJob, TextWrapping};
-use eframe::egui::{self, Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, vec2};
+use eframe::egui::{
+    self, Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
+};
+
+/// Fills what a picture leaves of its panel: what it covers need not be painted twice.
+pub fn surround(painter: &Painter, panel: Rect, picture: Rect, colour: Color32) {
+    let inner = picture.intersect(panel);
+    if !inner.is_positive() {
+        painter.rect_filled(panel, CornerRadius::ZERO, colour);
+        return;
+    }
+    let corners = |x0, y0, x1, y1| Rect::from_min_max(pos2(x0, y0), pos2(x1, y1));
+    let strips = [
+        corners(panel.left(), panel.top(), panel.right(), inner.top()),
+        corners(panel.left(), inner.bottom(), panel.right(), panel.bottom()),
+        corners(panel.left(), inner.top(), inner.left(), inner.bottom()),
+        corners(inner.right(), inner.top(), panel.right(), inner.bottom()),
+    ];
+    for strip in strips.into_iter().filter(|strip| strip.is_positive()) {
+        painter.rect_filled(strip, CornerRadius::ZERO, colour);
+    }
+}
 
 /// A strategy by its role: "next event", "connect 2+2", …
 pub fn role_name(strategy: Strategy, lang: Lang) -> String {

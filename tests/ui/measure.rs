@@ -8,7 +8,6 @@ fn rendering() -> Harness<'static, App> {
     let scene = builtin::open("cornell").expect("a built-in scene opens");
     let mut window = Harness::builder()
         .with_size(egui::vec2(1440.0, 900.0))
-        .allow_missing_glyphs()
         .build_eframe(|context| App::new(Start { source: SceneSource::Ready(Arc::new(scene)), size: [512, 512] }, &context.egui_ctx, None));
     until(&mut window, "a first frame", |app| app.live().frame().is_some());
     window
@@ -66,7 +65,6 @@ fn the_window_beside_a_rendering_gpu() {
     let start = Start { source: SceneSource::Ready(Arc::new(builtin::open("cornell").expect("a built-in scene opens"))), size: [512, 512] };
     let mut window = Harness::builder()
         .with_size(egui::vec2(1440.0, 900.0))
-        .allow_missing_glyphs()
         .renderer(egui_kittest::wgpu::WgpuTestRenderer::new())
         .build_eframe(|context| App::new(start, &context.egui_ctx, None));
     window.state_mut().state_mut().prefs.backend = Backend::Gpu;

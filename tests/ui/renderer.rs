@@ -6,9 +6,10 @@ use bdpt_explorer::scene::Lens;
 use bdpt_explorer::ui::state::State;
 
 fn choose(window: &mut Harness<'static, App>, lang: Lang, name: Text) {
-    window.get_by_role_and_label(Role::ComboBox, Text::Renderer.in_language(lang)).click();
-    window.run_steps(3);
+    rendering_menu(window, lang);
     click(window, Role::Button, name.in_language(lang));
+    window.key_press(Key::Escape);
+    window.run_steps(3);
 }
 
 fn backend(window: &Harness<'static, App>) -> Backend {

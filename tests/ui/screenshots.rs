@@ -10,7 +10,7 @@ use egui_kittest::wgpu::WgpuTestRenderer;
 /// The window drawn by an adapter, with fonts for Chinese where the machine has them.
 pub(super) fn drawn(scene: Arc<Scene>, size: [f32; 2]) -> Harness<'static, App> {
     let start = Start { source: SceneSource::Ready(scene), size: [256, 256] };
-    Harness::builder().with_size(egui::Vec2::from(size)).allow_missing_glyphs().renderer(WgpuTestRenderer::new()).build_eframe(|context| {
+    Harness::builder().with_size(egui::Vec2::from(size)).renderer(WgpuTestRenderer::new()).build_eframe(|context| {
         let fonts = egui_system_font_provider::SystemFontProvider::new().with_locale(Some("zh-Hans"));
         context.egui_ctx.add_font_provider(Arc::new(fonts));
         App::new(start, &context.egui_ctx, None)
@@ -24,7 +24,13 @@ pub(super) fn picture(window: &mut Harness<'static, App>, name: &str) -> image::
     window.run_steps(4);
     std::thread::sleep(Duration::from_millis(200));
     window.run_steps(4);
-    let image = window.render().expect("a picture of the window");
+    let mut image = window.render().expect("a picture of the window");
+    // A window is cleared to the panels' ground; the test's canvas is transparent.
+    let ground = window.ctx.global_style().visuals.panel_fill.to_array();
+    for pixel in image.pixels_mut() {
+        let [.., a] = pixel.0.map(u32::from);
+        pixel.0 = std::array::from_fn(|i| (u32::from(pixel.0[i]) + u32::from(ground[i]) * (255 - a) / 255).min(255) as u8);
+    }
     if let Ok(folder) = std::env::var("BDPT_SCREENSHOT_DIR") {
         image.save(std::path::Path::new(&folder).join(format!("{name}.png"))).expect("the folder can be written to");
     }

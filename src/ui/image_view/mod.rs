@@ -20,6 +20,7 @@ use super::projection::Projector;
 use super::state::State;
 use super::text::{Text, ViewText, fill};
 use super::theme;
+use super::widgets::surround;
 use eframe::egui::{
     self, Align2, Color32, CornerRadius, FontId, Label, Painter, Pos2, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui,
     WidgetInfo, pos2, vec2,
@@ -72,7 +73,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, desk: &mut Desk) -> Rec
     peek(ui, state, &response);
     name(ui, state, &response);
     let painter = ui.painter().with_clip_rect(panel);
-    painter.rect_filled(panel, CornerRadius::ZERO, theme::backdrop(ui.visuals()));
+    surround(&painter, panel, if live.frame().is_some() { image } else { Rect::NOTHING }, theme::backdrop(ui.visuals()));
     let pair = Pair::find(state, live);
     let marked = pictures(&painter, state, darkroom, &pair, [panel, image]);
     point(ui, state, &response, [panel, image]);
