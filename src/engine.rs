@@ -11,25 +11,33 @@ use crate::scene::Ray;
 mod cpu;
 mod device;
 mod job;
+mod probe;
 mod session;
 mod stats;
 mod thread;
 pub use device::device_in_use;
 pub use job::{Backend, FILM_BUDGET, Job, JobError, MAX_SIDE};
+pub use probe::Probe;
 pub use session::Session;
 pub use stats::{Notice, Stats};
 pub use thread::{Engine, Frame, Thumbnail};
 
 /// Re-runs one sample of one pixel: the very path the renderer used. Takes well under a millisecond.
 pub fn record(job: &Job, pixel: [u32; 2], sample: u32) -> Result<PathRecord, JobError> {
+    check_pixel(job, pixel)?;
+    let view = job.view();
+    Ok(record_sample(&Context::new(&job.scene, &view, &job.settings), pixel, sample))
+}
+
+/// Can samples of this pixel be run again?
+fn check_pixel(job: &Job, pixel: [u32; 2]) -> Result<(), JobError> {
     // Only what the record depends on: a film is not needed.
     Job { weighted_layers: false, raw_layers: false, ..job.clone() }.check()?;
     if pixel[0] >= job.size[0] || pixel[1] >= job.size[1] {
         let [width, height] = job.size;
         return Err(JobError(format!("pixel {},{}: outside the {width}x{height} film (0,0 is its top left)", pixel[0], pixel[1])));
     }
-    let view = job.view();
-    Ok(record_sample(&Context::new(&job.scene, &view, &job.settings), pixel, sample))
+    Ok(())
 }
 
 /// How far away, along the axis, what a pixel shows is: the first hit of the ray from the middle of the lens through the

@@ -1,7 +1,8 @@
 //! Every key, in one table: it is what the program obeys, what the help window lists and what tooltips quote.
 
+use super::inspector;
 use super::state::{Placement, State};
-use super::text::Text;
+use super::text::{Text, Words};
 use crate::bdpt::Strategy;
 use eframe::egui;
 use eframe::egui::Key;
@@ -29,6 +30,8 @@ pub enum Action {
     Hide,
     /// Focus on the selected pixel, or on the one clicked next.
     Focus,
+    /// Look for a sample with light, or for the brightest.
+    Find,
     /// The list of keys.
     Help,
 }
@@ -59,6 +62,7 @@ pub const TABLE: &[Binding] = &[
     Binding { action: Action::Sample, shown: "N, Shift+N", text: Text::KeySample, keys: &[Key::N], shift: true },
     Binding { action: Action::Strategy, shown: "1 … 9", text: Text::KeyStrategy, keys: DIGITS, shift: false },
     Binding { action: Action::Vertex, shown: "Space, Shift+Space", text: Text::KeyVertex, keys: &[Key::Space], shift: true },
+    Binding { action: Action::Find, shown: "L, Shift+L", text: Text::KeyFind, keys: &[Key::L], shift: true },
     Binding { action: Action::Hide, shown: "H", text: Text::KeyHide, keys: &[Key::H], shift: false },
     Binding { action: Action::Focus, shown: "G, Shift+G", text: Text::KeyFocus, keys: &[Key::G], shift: true },
     Binding { action: Action::Exposure, shown: "E, Shift+E", text: Text::KeyExposure, keys: &[Key::E], shift: true },
@@ -72,7 +76,7 @@ const ARROWS: &[Key] = &[Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::Arr
 const DIGITS: &[Key] = &[Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
 
 /// A tooltip: the words, and the keys that do the same.
-pub fn hint(state: &State, text: Text, action: Action) -> String {
+pub fn hint(state: &State, text: impl Words, action: Action) -> String {
     let keys = TABLE.iter().find(|row| row.action == action).map_or("", |row| row.shown);
     format!("{}  [{keys}]", state.say(text))
 }
@@ -95,7 +99,7 @@ pub fn obey(ctx: &egui::Context, state: &mut State, image: egui::Id) {
         }
     }
     if ctx.input(|input| input.key_pressed(Key::Escape)) {
-        (state.help, state.picking_focus) = (false, false);
+        (state.help, state.picking_focus, state.inspect.search) = (false, false, None);
     }
 }
 
@@ -150,6 +154,7 @@ pub fn perform(state: &mut State, action: Action, index: usize, shift: bool) {
         }
         Action::Focus if shift => state.picking_focus = !state.picking_focus,
         Action::Focus => (state.picking_focus, state.focus_on) = (false, Some(state.selection.pixel)),
+        Action::Find => inspector::start_search(state, if shift { inspector::Goal::Brightest } else { inspector::Goal::Light }),
         Action::Help => state.help = !state.help,
     }
 }

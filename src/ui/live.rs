@@ -1,6 +1,7 @@
 //! What the state asks for, made real: loads scenes, keeps the engine in step with the state, and re-runs the selected sample
 //! when (and only when) something it depends on has changed. Nothing here waits: scenes load and images render elsewhere.
 
+use super::inspector;
 use super::loader::{Failure, Loader};
 use super::state::{Opening, State};
 use super::text::{Text, fill};
@@ -116,8 +117,9 @@ impl Live {
                 engine.set_paused(state.paused);
             }
         }
+        let searching = self.engine.as_ref().is_some_and(|engine| inspector::sync_search(state, engine));
         let new_record = self.sync_record(state);
-        loaded || restarted || new_frame || new_record
+        loaded || restarted || new_frame || new_record || searching
     }
 
     /// The scene on show.

@@ -9,6 +9,7 @@ mod app;
 mod camera_bar;
 mod cell;
 mod checks;
+mod cite;
 mod edit;
 mod export;
 mod features;

@@ -3,6 +3,7 @@
 pub use super::checks::ChecksState;
 pub use super::edit::EditState;
 pub use super::export::ExportState;
+pub use super::inspector::{Bars, InspectState};
 pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};
 pub use super::space::SpaceState;
 pub use super::study::StudyState;
@@ -157,6 +158,8 @@ pub struct State {
     pub checks: ChecksState,
     /// Saving.
     pub export: ExportState,
+    /// The inspector's own choices.
+    pub inspect: InspectState,
     /// What there is to say.
     pub messages: Vec<Message>,
 }
@@ -191,6 +194,7 @@ impl State {
             study: StudyState::default(),
             checks: ChecksState::default(),
             export: ExportState::default(),
+            inspect: InspectState::default(),
             messages: Vec::new(),
         }
     }

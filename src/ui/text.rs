@@ -30,6 +30,7 @@ macro_rules! texts {
 mod check;
 mod edit;
 mod export;
+mod inspect;
 mod space;
 mod study;
 mod table;
@@ -38,6 +39,7 @@ mod view;
 pub use check::CheckText;
 pub use edit::EditText;
 pub use export::ExportText;
+pub use inspect::InspectText;
 pub use space::SpaceText;
 pub use study::StudyText;
 pub use table::Text;
@@ -208,6 +210,7 @@ mod tests {
         check(CheckText::ALL);
         check(EditText::ALL);
         check(ExportText::ALL);
+        check(InspectText::ALL);
         check(SpaceText::ALL);
         check(StudyText::ALL);
         check(ViewText::ALL);

@@ -13,7 +13,8 @@ use eframe::egui::{Align, ComboBox, DragValue, Layout, Response, Role, Ui, UiBui
 /// Film sizes on offer.
 pub const SIZES: &[[u32; 2]] = &[[128, 128], [256, 256], [512, 512], [768, 768], [1024, 1024], [640, 360], [960, 540]];
 
-const HEURISTICS: &[(HeuristicKind, Text, Text)] = &[
+/// The heuristics on offer: which, its name, what it does.
+pub const HEURISTICS: &[(HeuristicKind, Text, Text)] = &[
     (HeuristicKind::Power, Text::Power, Text::HelpPower),
     (HeuristicKind::Balance, Text::Balance, Text::HelpBalance),
     (HeuristicKind::Max, Text::Max, Text::HelpMax),

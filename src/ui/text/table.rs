@@ -310,6 +310,7 @@ texts! { Text;
     KeySample: "Next sample, previous sample", "下一个采样，上一个采样";
     KeyStrategy: "Strategies of the current path length", "当前路径长度的各个策略";
     KeyVertex: "Next vertex of the selected path, previous vertex", "所选路径的下一个顶点，上一个顶点";
+    KeyFind: "Next sample in which the selected strategy carries light; with Shift the brightest of the next 256", "所选策略携带光的下一个采样；按住 Shift 则为后续 256 个中最亮的";
     KeyHide: "Hide or show the selected strategy", "隐藏或显示所选策略";
     KeyFocus: "Focus on the selected pixel; with Shift on the next click", "对焦到所选像素；按住 Shift 则对焦到下一次点击处";
     KeyExposure: "Exposure up, down by half a stop", "曝光增加、减少半档";
