@@ -20,7 +20,7 @@ pub use job::{Backend, FILM_BUDGET, Job, JobError, MAX_SIDE};
 pub use probe::Probe;
 pub use session::Session;
 pub use stats::{Notice, Stats};
-pub use thread::{Engine, Frame, Thumbnail};
+pub use thread::{Engine, Frame, Layers, Thumbnail};
 
 /// Re-runs one sample of one pixel: the very path the renderer used. Takes well under a millisecond.
 pub fn record(job: &Job, pixel: [u32; 2], sample: u32) -> Result<PathRecord, JobError> {

@@ -8,6 +8,7 @@ mod svg_parts;
 pub use csv::{strategies_csv, vertices_csv};
 pub use svg::diagram_svg;
 
+use crate::bdpt::record::StrategyRecord;
 use crate::bdpt::{PathRecord, Strategy};
 
 /// The record as `inspect --json` prints it; the message says what could not be written.
@@ -15,11 +16,11 @@ pub fn record_json(record: &PathRecord) -> Result<String, String> {
     serde_json::to_string_pretty(record).map(|json| json + "\n").map_err(|error| error.to_string())
 }
 
-/// The strategy to draw large where none was chosen: the one that contributes most.
+/// The strategy to draw large where none was chosen: the one that contributes most; one that stays in its pixel, if there is any.
 pub fn brightest(record: &PathRecord) -> Option<Strategy> {
-    let size = |contribution: [f32; 3]| contribution.iter().sum::<f32>();
-    let best = record.strategies.iter().filter(|x| x.feasible).max_by(|a, b| size(a.contribution).total_cmp(&size(b.contribution)));
-    best.map(|x| x.strategy())
+    let size = |x: &StrategyRecord| (x.strategy().stays_in_pixel(), x.contribution.iter().sum::<f32>());
+    let order = |a: (bool, f32), b: (bool, f32)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1));
+    record.strategies.iter().filter(|x| x.feasible).max_by(|a, b| order(size(a), size(b))).map(StrategyRecord::strategy)
 }
 
 /// A file's name without its ending for what is saved of a sample: scene, pixel and sample.

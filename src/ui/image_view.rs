@@ -3,6 +3,7 @@
 use super::camera_bar;
 use super::keys::{self, Action};
 use super::live::Live;
+use super::mark_pick;
 use super::overlay;
 use super::pictures::Pictures;
 use super::projection::Projector;
@@ -32,7 +33,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
     let panel = ui.available_rect_before_wrap();
     ui.advance_cursor_after_rect(panel);
     let response = ui.interact(panel, id(), Sense::click_and_drag());
-    let image = navigate(ui, state, &response, panel);
+    let image = navigate(ui, state, live, &response, panel);
     name(ui, state, &response);
     let painter = ui.painter().with_clip_rect(panel);
     painter.rect_filled(panel, CornerRadius::ZERO, theme::backdrop(ui.visuals()));
@@ -167,7 +168,7 @@ fn show_menu(ui: &mut Ui, state: &mut State) {
 }
 
 /// Zoom, pan and pick; where the film ends up.
-fn navigate(ui: &Ui, state: &mut State, response: &Response, panel: Rect) -> Rect {
+fn navigate(ui: &Ui, state: &mut State, live: &Live, response: &Response, panel: Rect) -> Rect {
     let size = vec2(state.size[0] as f32, state.size[1] as f32);
     let (mut zoom, mut centre) = match state.placement {
         Placement::Fit => (fit_zoom(size, panel), size * 0.5),
@@ -194,6 +195,9 @@ fn navigate(ui: &Ui, state: &mut State, response: &Response, panel: Rect) -> Rec
     }
     let image = Rect::from_min_size(panel.center() - centre * zoom, size * zoom);
     if let Some(cursor) = response.interact_pointer_pos().filter(|_| response.clicked()) {
+        if !state.picking_focus && mark_pick::click(ui, state, live, [image, panel], cursor) {
+            return image;
+        }
         let at = (cursor - image.min) / zoom;
         if at.x >= 0.0 && at.y >= 0.0 && at.x < size.x && at.y < size.y {
             if state.picking_focus {

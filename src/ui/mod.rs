@@ -21,6 +21,7 @@ pub mod keys;
 mod legend;
 mod live;
 mod loader;
+mod mark_pick;
 mod marks;
 mod messages;
 #[cfg(not(target_arch = "wasm32"))]

@@ -3,6 +3,7 @@
 
 use super::format::{FRESH_LIGHT, indexed};
 use super::live::Live;
+use super::mark_pick;
 use super::marks;
 use super::places::{self, Place};
 use super::projection::Projector;
@@ -34,6 +35,7 @@ pub fn show(ui: &mut Ui, painter: &Painter, state: &State, live: &Live, projecto
         if shown.splats {
             splats(ui, painter, state, record, projector);
         }
+        mark_pick::hover(ui, state, record, projector);
     }
     if shown.legend {
         super::legend::show(ui, state, live, [projector.clip, projector.image]);

@@ -1,5 +1,6 @@
 //! The top bar: which scene, which estimator, and the window's own switches.
 
+use super::export;
 use super::keys::{self, Action};
 use super::live::Live;
 use super::scene_menu;
@@ -46,6 +47,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
         if ui.button(state.say(Text::Restart)).on_hover_text(state.say(Text::HelpRestart)).clicked() {
             state.restart = true;
         }
+        export::show(ui, state, live);
         at_the_right(ui, |ui| window_switches(ui, state));
     });
 }

@@ -38,6 +38,7 @@ pub fn diagram_svg(record: &PathRecord, chosen: Option<Strategy>) -> String {
     grid.subpaths(&mut drawing, record);
     // Lines first, so that no line runs through a word.
     record.strategies.iter().for_each(|x| grid.line(&mut drawing, x, chosen.is_some_and(|y| y.strategy() == x.strategy())));
+    grid.fresh_ends(&mut drawing, record);
     record.strategies.iter().for_each(|x| grid.cell(&mut drawing, x));
     let end = grid.y(grid.rows) + CELL[1] + 20.0;
     legend(&mut drawing, end);
@@ -205,14 +206,14 @@ impl Grid {
         let fresh = |at: Option<usize>| at.and_then(|at| x.vertices.get(at)).is_some_and(|v| v.fresh);
         let mut start = vec![light, [light[0] + 12.0, turn[1]]];
         if fresh(Some(0)) {
-            // A light end of its own: an open mark beside the row's vertex.
-            start = vec![[light[0] + 30.0, turn[1]]];
-            drawing.mark(start[0], true, true);
+            // All light ends of their own share an open mark beside the row's vertex.
+            let mark = self.fresh_light();
+            start = vec![mark, [mark[0] + 8.0, mark[1]], [mark[0] + 20.0, turn[1]]];
         }
         let mut end = vec![[turn[0], eye[1] + 14.0], eye];
         if t > 0 && fresh(x.vertices.len().checked_sub(1)) {
-            end = vec![[turn[0], eye[1] + 30.0]];
-            drawing.mark(end[0], false, true);
+            let mark = self.fresh_lens();
+            end = vec![[turn[0], mark[1] + 22.0], [mark[0], mark[1] + 9.0], mark];
         }
         let points: Vec<At> = match (s, t) {
             (0, _) => vec![eye, [eye[0], turn[1] - 6.0]],
@@ -231,6 +232,29 @@ impl Grid {
         drawing.path(&points, style);
         if blocked {
             drawing.cross(turn);
+        }
+    }
+
+    fn fresh_light(&self) -> At {
+        [self.left() + 44.0, self.y(1) - 2.0 * LANE - 14.0]
+    }
+
+    fn fresh_lens(&self) -> At {
+        [self.x(1) - 2.0 * LANE, self.top + 36.0]
+    }
+
+    /// The open marks of the ends that are drawn for one connection alone, where any carries light or is blocked.
+    fn fresh_ends(&self, drawing: &mut Drawing, record: &PathRecord) {
+        let drawn = |x: &&StrategyRecord| x.feasible || x.reason == Some(Reason::Blocked);
+        let any = |fresh: fn(&StrategyRecord) -> bool| record.strategies.iter().filter(drawn).any(fresh);
+        for (there, at, light, name, offset) in [
+            (any(|x| x.vertices.first().is_some_and(|v| v.fresh)), self.fresh_light(), true, "y₀′", [-26.0, -10.0]),
+            (any(|x| x.vertices.last().is_some_and(|v| v.fresh)), self.fresh_lens(), false, "z₀′", [-34.0, 4.0]),
+        ] {
+            if there {
+                drawing.mark(at, light, true);
+                drawing.text([at[0] + offset[0], at[1] + offset[1]], "n", name);
+            }
         }
     }
 

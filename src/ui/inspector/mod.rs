@@ -9,6 +9,7 @@ mod strategies;
 mod what_if;
 mod words;
 
+pub use pick::{eye_vertex, light_vertex};
 pub use search::{Goal, Search, start as start_search, sync as sync_search};
 pub use splits::Bars;
 
