@@ -19,12 +19,16 @@ use std::time::{Duration, Instant};
 mod existence;
 #[path = "common/glb.rs"]
 mod glb;
+#[path = "ui/inspect.rs"]
+mod inspect;
 #[path = "ui/layout.rs"]
 mod layout;
 #[path = "ui/lens.rs"]
 mod lens;
 #[path = "ui/measure.rs"]
 mod measure;
+#[path = "ui/numbers.rs"]
+mod numbers;
 #[path = "ui/renderer.rs"]
 mod renderer;
 #[path = "ui/scenes.rs"]

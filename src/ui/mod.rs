@@ -47,6 +47,7 @@ mod watch;
 mod widgets;
 
 pub use app::{App, Start};
+pub use inspector::weights as inspector_weights;
 pub use live::{Live, SceneSource};
 #[cfg(not(target_arch = "wasm32"))]
 pub use native::{EveryPass, Hooks, Pass, WindowError, open, run};

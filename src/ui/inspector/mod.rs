@@ -12,6 +12,7 @@ mod words;
 pub use pick::{eye_vertex, light_vertex};
 pub use search::{Goal, Search, start as start_search, sync as sync_search};
 pub use splits::Bars;
+pub use what_if::weights;
 
 use super::cite::cite;
 use super::keys::{self, Action};
