@@ -21,6 +21,8 @@ mod existence;
 mod gallery;
 #[path = "common/glb.rs"]
 mod glb;
+#[path = "ui/inspect.rs"]
+mod inspect;
 #[path = "ui/layout.rs"]
 mod layout;
 #[path = "ui/lens.rs"]
@@ -29,6 +31,8 @@ mod lens;
 mod looks;
 #[path = "ui/measure.rs"]
 mod measure;
+#[path = "ui/numbers.rs"]
+mod numbers;
 #[path = "ui/random.rs"]
 mod random;
 #[path = "ui/renderer.rs"]

@@ -31,10 +31,28 @@ pub struct LookRecord {
     pub color: [f32; 3],
     /// Roughness; α of GGX is its square.
     pub roughness: f32,
+    /// α of GGX; `None` where the model has no rough component.
+    pub ggx_alpha: Option<f32>,
     /// Share of the metal.
     pub metallic: f32,
+    /// Index of refraction, inside over outside; `None` of what is no dielectric.
+    pub ior: Option<f32>,
+    /// Reflectance of a coat at normal incidence; `None` without a coat.
+    pub coat_f0: Option<[f32; 3]>,
     /// a(x), the probability that the surface is there.
     pub opacity: f32,
+}
+
+/// The edge between two neighbouring vertices of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct EdgeRecord {
+    /// Its length, m; `None` if one end is infinitely far away.
+    pub length: Option<f32>,
+    /// The unit vector along it, from the vertex before to the vertex after.
+    pub direction: [f32; 3],
+    /// G without V, m⁻² (without the cosine at a point light; to a vertex at infinity |cosθ| of the other end, a pure number);
+    /// `None` where it is no finite number: the two coincide.
+    pub geometry_term: Option<f32>,
 }
 
 /// A vertex as it is reported.
@@ -60,6 +78,11 @@ pub struct VertexRecord {
     pub look: Option<LookRecord>,
     /// Does it lie on a light?
     pub emitter: bool,
+    /// What its light emits here: radiance, W m⁻² sr⁻¹ (area, environment); greatest intensity, W sr⁻¹ (point, spot);
+    /// irradiance, W m⁻² (directional).
+    pub emission: Option<[f32; 3]>,
+    /// The edge from the vertex before it in its list; `None` at the first.
+    pub edge: Option<EdgeRecord>,
     /// α of the subpath up to here.
     pub alpha: [f32; 3],
     /// Density of this vertex by its own subpath.
@@ -144,6 +167,10 @@ pub struct SplitRecord {
     pub reason_text: Option<&'static str>,
     /// w_{s,t} by its definition.
     pub weight: f64,
+    /// C* = f/(n p_{s,t}) of this very path; `None` where the strategy cannot sample it (or no number of 64 bits holds it).
+    pub contribution_unweighted: Option<[f64; 3]>,
+    /// w C*: what the strategy adds whenever it makes this very path.
+    pub contribution: [f64; 3],
 }
 
 /// One strategy of the sample.

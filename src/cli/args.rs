@@ -79,6 +79,15 @@ pub struct InspectArgs {
     /// Everything, as JSON
     #[arg(long)]
     pub json: bool,
+    /// Write a diagram of the two subpaths and of every way to join them, with the brightest path in full
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Write the table of strategies as CSV
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Write the vertices of both subpaths and of every path as CSV
+    #[arg(long, value_name = "FILE")]
+    pub vertices_csv: Option<PathBuf>,
 }
 
 /// What a path is made with: the same for `render` and `inspect`, so that both speak of the same samples.

@@ -2,6 +2,7 @@
 
 pub mod canvas;
 pub mod contact_sheet;
+pub mod export;
 
 pub use canvas::Canvas;
 pub use contact_sheet::{ContactSheet, Heading};

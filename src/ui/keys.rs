@@ -1,5 +1,6 @@
 //! Every key, in one table: it is what the program obeys, what the help window lists and what tooltips quote.
 
+use super::inspector;
 use super::space;
 use super::state::{Placement, Source, State};
 use super::text::{SpaceText, Text, Words};
@@ -47,6 +48,8 @@ pub enum Action {
     Why,
     /// Focus on the selected pixel, or on the one clicked next.
     Focus,
+    /// Look for a sample with light, or for the brightest.
+    Find,
     /// The list of keys.
     Help,
     /// The 3-D view frames the selection.
@@ -86,6 +89,7 @@ pub const TABLE: &[Binding] = &[
     Binding { action: Action::Sample, shown: "N, Shift+N", text: Text::KeySample, keys: &[Key::N], shift: true },
     Binding { action: Action::Strategy, shown: "1 … 9", text: Text::KeyStrategy, keys: DIGITS, shift: false },
     Binding { action: Action::Vertex, shown: "Space, Shift+Space", text: Text::KeyVertex, keys: &[Key::Space], shift: true },
+    Binding { action: Action::Find, shown: "L, Shift+L", text: Text::KeyFind, keys: &[Key::L], shift: true },
     Binding { action: Action::Hide, shown: "H", text: Text::KeyHide, keys: &[Key::H], shift: false },
     Binding { action: Action::Mode, shown: "M, Shift+M", text: Text::KeyMode, keys: &[Key::M], shift: true },
     Binding { action: Action::Why, shown: "Y", text: Text::KeyWhy, keys: &[Key::Y], shift: false },
@@ -253,6 +257,7 @@ pub fn perform(state: &mut State, action: Action, index: usize, shift: bool) {
         Action::Why => state.study.why = !state.study.why,
         Action::Focus if shift => state.picking_focus = !state.picking_focus,
         Action::Focus => (state.picking_focus, state.focus_on) = (false, Some(state.selection.pixel)),
+        Action::Find => inspector::start_search(state, if shift { inspector::Goal::Brightest } else { inspector::Goal::Light }),
         Action::Help => state.help = !state.help,
         Action::Frame | Action::Orbit | Action::Dolly => space::step(state, action, index),
         // What is held, not what is pressed, flies.
@@ -268,7 +273,7 @@ pub fn step_sample(state: &mut State, back: bool) {
 
 /// Closes what is open; with nothing open, the view goes back to the image.
 fn back(state: &mut State) {
-    let open = std::mem::take(&mut state.help) | std::mem::take(&mut state.picking_focus);
+    let open = std::mem::take(&mut state.help) | std::mem::take(&mut state.picking_focus) | state.inspect.search.take().is_some();
     if !open {
         state.compare.a = Source::Image;
     }

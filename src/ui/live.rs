@@ -1,6 +1,8 @@
 //! What the state asks for, made real: loads scenes, keeps the engine in step with the state, and re-runs the selected sample
 //! when (and only when) something it depends on has changed. Nothing here waits: scenes load and images render elsewhere.
 
+use super::export::{Saver, Sources};
+use super::inspector;
 use super::loader::{Failure, Loader};
 use super::state::{Opening, State};
 use super::study;
@@ -63,6 +65,7 @@ pub struct Live {
     unreadable: Option<String>,
     /// What was said of the scene on show.
     noted: Option<String>,
+    saver: Saver,
 }
 
 impl Live {
@@ -84,6 +87,7 @@ impl Live {
             refused: None,
             unreadable: None,
             noted: None,
+            saver: Saver::new(wake),
         }
     }
 
@@ -118,8 +122,11 @@ impl Live {
             }
             engine.set_wish(study::wish(state, self.frame.as_deref()));
         }
+        let searching = self.engine.as_ref().is_some_and(|engine| inspector::sync_search(state, engine));
         let new_record = self.sync_record(state);
-        loaded || restarted || new_frame || new_record
+        let record = self.record(state);
+        let saved = self.saver.sync(state, Sources { engine: self.engine.as_ref(), frame: self.frame.as_ref(), record });
+        loaded || restarted || new_frame || new_record || searching || saved
     }
 
     /// The scene on show.

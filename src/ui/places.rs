@@ -106,6 +106,8 @@ mod tests {
             model: None,
             look: None,
             emitter: false,
+            emission: None,
+            edge: None,
             alpha: [1.0; 3],
             pdf_fwd: 1.0,
             pdf_rev: None,

@@ -5,6 +5,7 @@ pub use super::compare::{CompareState, Mode as CompareMode, Source};
 pub use super::edit::EditState;
 pub use super::export::ExportState;
 pub use super::image_view::ViewState;
+pub use super::inspector::{Bars, InspectState};
 pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};
 pub use super::space::SpaceState;
 pub use super::study::StudyState;
@@ -167,6 +168,8 @@ pub struct State {
     pub export: ExportState,
     /// How things were when the tour's step began.
     pub tour: Option<Before>,
+    /// The inspector's own choices.
+    pub inspect: InspectState,
     /// What there is to say.
     pub messages: Vec<Message>,
 }
@@ -204,6 +207,7 @@ impl State {
             checks: ChecksState::default(),
             export: ExportState::default(),
             tour: None,
+            inspect: InspectState::default(),
             messages: Vec::new(),
         }
     }

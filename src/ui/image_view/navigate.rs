@@ -1,10 +1,12 @@
 //! Zoom around the cursor, pan, and the click that picks a pixel.
 
+use super::super::live::Live;
+use super::super::mark_pick;
 use super::super::state::{Placement, State};
 use eframe::egui::{Rect, Response, Ui, Vec2, vec2};
 
 /// Zoom, pan and pick; where the film ends up.
-pub fn show(ui: &Ui, state: &mut State, response: &Response, panel: Rect) -> Rect {
+pub fn show(ui: &Ui, state: &mut State, live: &Live, response: &Response, panel: Rect) -> Rect {
     let size = vec2(state.size[0] as f32, state.size[1] as f32);
     let (mut zoom, mut centre) = match state.placement {
         Placement::Fit => (fit_zoom(size, panel), size * 0.5),
@@ -34,6 +36,9 @@ pub fn show(ui: &Ui, state: &mut State, response: &Response, panel: Rect) -> Rec
     }
     let image = Rect::from_min_size(panel.center() - centre * zoom, size * zoom);
     if let Some(cursor) = response.interact_pointer_pos().filter(|_| response.clicked()) {
+        if !state.picking_focus && mark_pick::click(ui, state, live, [image, panel], cursor) {
+            return image;
+        }
         let at = (cursor - image.min) / zoom;
         if at.x >= 0.0 && at.y >= 0.0 && at.x < size.x && at.y < size.y {
             if state.picking_focus {

@@ -308,6 +308,7 @@ texts! { Text;
     KeySample: "Next sample, previous sample", "下一个采样，上一个采样";
     KeyStrategy: "Strategies of the current path length", "当前路径长度的各个策略";
     KeyVertex: "Next vertex of the selected path, previous vertex", "所选路径的下一个顶点，上一个顶点";
+    KeyFind: "Next sample in which the selected strategy carries light; with Shift the brightest of the next 256", "所选策略携带光的下一个采样；按住 Shift 则为后续 256 个中最亮的";
     KeyHide: "Hide or show the selected strategy", "隐藏或显示所选策略";
     KeyMode: "Next mode of the pyramid's cells, previous mode", "策略金字塔显示内容：下一种，上一种";
     KeyWhy: "Explain why the selected strategy is black or bright", "说明所选策略为何是黑的或亮的";
