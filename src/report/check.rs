@@ -100,7 +100,7 @@ impl Check {
     fn budget(self, effort: Effort) -> Budget {
         let (samples, seconds) = match self {
             Self::Replay => (6_000, 1.5),
-            Self::Pairwise => (150_000, 3.5),
+            Self::Pairwise => (400_000, 4.0),
             Self::Furnace => (60_000, 1.5),
             Self::Integrators => (100_000, 2.5),
             Self::Finite => (20_000, 1.0),

@@ -1,6 +1,7 @@
 //! What the state asks for, made real: loads scenes, keeps the engine in step with the state, and re-runs the selected sample
 //! when (and only when) something it depends on has changed. Nothing here waits: scenes load and images render elsewhere.
 
+use super::checks::Runner;
 use super::loader::{Failure, Loader};
 use super::state::{Opening, State};
 use super::text::{Text, fill};
@@ -62,6 +63,7 @@ pub struct Live {
     unreadable: Option<String>,
     /// What was said of the scene on show.
     noted: Option<String>,
+    checks: Runner,
 }
 
 impl Live {
@@ -83,6 +85,7 @@ impl Live {
             refused: None,
             unreadable: None,
             noted: None,
+            checks: Runner::default(),
         }
     }
 
@@ -108,16 +111,19 @@ impl Live {
         // First the picture that is there, then the next one's job: a lens that is dragged shows every step of the way.
         let new_frame = self.sync_frame();
         let restarted = self.sync_job(state);
+        let checked = self.checks.sync(state, self.engine.as_ref(), &self.wake);
         if let Some(engine) = &mut self.engine {
             if engine.hidden() != state.hidden {
                 engine.set_hidden(state.hidden);
             }
-            if engine.paused() != state.paused {
-                engine.set_paused(state.paused);
+            // The processor belongs to the checks while they run.
+            let paused = state.paused || self.checks.running();
+            if engine.paused() != paused {
+                engine.set_paused(paused);
             }
         }
         let new_record = self.sync_record(state);
-        loaded || restarted || new_frame || new_record
+        loaded || restarted || checked || new_frame || new_record
     }
 
     /// The scene on show.
@@ -153,6 +159,11 @@ impl Live {
     /// What is being rendered.
     pub fn engine(&self) -> Option<&Engine> {
         self.engine.as_ref()
+    }
+
+    /// The checks, and what came of them.
+    pub fn checks(&self) -> &Runner {
+        &self.checks
     }
 
     /// Which strategies exist in what is being rendered, and why the others do not.

@@ -35,7 +35,7 @@ mod study;
 mod table;
 mod view;
 
-pub use check::CheckText;
+pub use check::{CheckText, phrase_text, said};
 pub use edit::EditText;
 pub use export::ExportText;
 pub use space::SpaceText;

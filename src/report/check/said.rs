@@ -44,7 +44,7 @@ phrases! {
     AboutFinite: "No contribution, under any weights, may be infinite, no number at all, or negative, and no splat too large to count.";
     AboutGpu: "Both renderers draw the same samples: nearly all their pixels must be equal.";
     // What was measured.
-    MeasuredReplay: "{} paths rebuilt {} times: p differs by {} at most, f by {}, Σw from 1 by {} (relative; bound {})";
+    MeasuredReplay: "{} paths rebuilt {} times: p differs by {} at most, f by {}, Σw from 1 by {} (relative; bound {}, which {} paths exceed)";
     MeasuredPairwise: "{} pairs judged, the largest |z| is {} (bound {}, level {} over all pairs); {} pairs had not enough samples";
     MeasuredFurnace: "radiance {} ± {}, exactly {}; the largest |z| over all lengths is {} (bound {}, level {})";
     MeasuredIntegrators: "PT finds {} ± {} of the light of BDPT, LT {} ± {}; {} comparisons, the largest |z| is {} (bound {}, level {})";
