@@ -1,69 +1,58 @@
-//! The checks themselves: they pass on every built-in scene, and each fails where something is wrong.
+//! The checks themselves: they pass on every built-in scene, each fails where something is wrong and says where, and the command line
+//! answers with their exit status.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs, reason = "tests may panic")]
 
+#[path = "check/command.rs"]
+mod command;
+#[path = "check/controls.rs"]
+mod controls;
+#[path = "common/glb.rs"]
+mod glb;
+#[path = "check/measure.rs"]
+mod measure;
+#[path = "common/skip.rs"]
+mod skip;
+#[path = "check/verdicts.rs"]
+mod verdicts;
+
 use bdpt_explorer::engine::Job;
-use bdpt_explorer::report::check::{self, Check, CheckResult, Effort, Verdict, Wanted};
-use bdpt_explorer::scene::builtin;
+use bdpt_explorer::report::check::{self, Check, CheckResult, Control, Effort, Verdict, Wanted};
+use bdpt_explorer::scene::{Scene, builtin};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+/// The checks that need no graphics adapter.
+const ON_CPU: [Check; 5] = [Check::Replay, Check::Pairwise, Check::Furnace, Check::Integrators, Check::Finite];
+
+fn scene(name: &str) -> Scene {
+    builtin::open(name).expect("a built-in scene opens")
+}
+
+fn job_of(scene: Scene) -> Job {
+    Job { size: [128, 96], ..Job::new(Arc::new(scene)) }
+}
+
 fn job(name: &str) -> Job {
-    Job { size: [128, 96], ..Job::new(Arc::new(builtin::open(name).unwrap())) }
+    job_of(scene(name))
 }
 
 fn run(job: &Job, wanted: &Wanted) -> Vec<CheckResult> {
     check::run(job, wanted, &mut |_| {}, &AtomicBool::new(false))
 }
 
+/// One check, with this many times the samples of a quick run.
+fn one(job: &Job, check: Check, share: f64, control: Control) -> CheckResult {
+    let wanted = Wanted { control, ..Wanted::new([check], Effort::Samples(share)) };
+    let result = run(job, &wanted).remove(0);
+    show(job, &result);
+    result
+}
+
 fn show(job: &Job, result: &CheckResult) {
-    let said = result.reason().or(result.measured.as_ref()).unwrap();
-    println!(
-        "{} {}: {} {said} [{} samples, {:.2} s]",
-        job.scene.name,
-        result.check.id(),
-        result.verdict.id(),
-        result.samples,
-        result.seconds
-    );
+    let said = result.reason().or(result.measured.as_ref()).expect("a check says something");
+    let (scene, check, verdict) = (&job.scene.name, result.check.id(), result.verdict.id());
+    println!("{scene} {check}: {verdict} {said} [{} samples, {:.2} s]", result.samples, result.seconds);
     for finding in &result.findings {
-        println!("    {} | {} | {:?}", finding.meaning, finding.look, finding.place);
-    }
-}
-
-#[test]
-fn every_built_in_scene_passes() {
-    let checks = [Check::Replay, Check::Pairwise, Check::Furnace, Check::Integrators, Check::Finite];
-    let share: f64 = std::env::var("SHARE").map_or(0.2, |x| x.parse().unwrap());
-    let mut failed = 0;
-    for entry in builtin::list() {
-        let job = job(entry.name);
-        for result in run(&job, &Wanted::new(checks, Effort::Samples(share))) {
-            show(&job, &result);
-            failed += usize::from(result.verdict == Verdict::Fail);
-        }
-    }
-    assert_eq!(failed, 0);
-}
-
-/// How often a check fails although nothing is wrong, over many seeds; `CHECK` is its id, `SHARE` how many samples, `SEEDS` how often.
-#[test]
-#[ignore = "a measurement"]
-fn false_alarms() {
-    let of = |name: &str, default: &str| std::env::var(name).unwrap_or(default.to_owned());
-    let check = Check::parse(&of("CHECK", "replay")).unwrap();
-    let share: f64 = of("SHARE", "1").parse().unwrap();
-    for entry in builtin::list().iter().filter(|entry| entry.name.contains(&of("SCENE", ""))) {
-        let (mut failed, mut largest) = (0, 0.0f64);
-        for seed in 0..of("SEEDS", "3").parse().unwrap() {
-            let mut job = job(entry.name);
-            job.settings.seed = seed;
-            let result = run(&job, &Wanted::new([check], Effort::Samples(share))).remove(0);
-            failed += usize::from(result.verdict == Verdict::Fail);
-            largest = largest.max(result.figure.unwrap_or(0.0) / result.bound.unwrap_or(1.0));
-            if result.verdict == Verdict::Fail || seed == 0 {
-                show(&job, &result);
-            }
-        }
-        println!("{}: {failed} failed, largest figure over bound {largest}", entry.name);
+        println!("    {}\n    {}\n    {:?}", finding.meaning, finding.look, finding.place);
     }
 }

@@ -183,6 +183,28 @@ impl Place {
     }
 }
 
+/// The sample with the largest value seen so far: the first to look at.
+#[derive(Clone, Copy, Debug, Default)]
+struct Largest(Option<(f64, Place)>);
+
+impl Largest {
+    fn see(&mut self, value: f64, id: SampleId, strategy: Strategy) {
+        if self.0.is_none_or(|(old, _)| value > old) {
+            self.0 = Some((value, Place::new(id, strategy)));
+        }
+    }
+
+    fn merge(&mut self, later: &Self) {
+        if let Some((value, place)) = later.0.filter(|(value, _)| self.0.is_none_or(|(old, _)| *value > old)) {
+            self.0 = Some((value, place));
+        }
+    }
+
+    fn place(&self) -> Option<Place> {
+        self.0.map(|(_, place)| place)
+    }
+}
+
 /// What is wrong.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {

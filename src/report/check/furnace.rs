@@ -10,7 +10,7 @@
 use super::said::short;
 use super::stats::{Moments, z_limit};
 use super::sweep::{Merge, Task};
-use super::{Check, CheckResult, Finding, LEVEL, Phrase, Said, Verdict};
+use super::{Check, CheckResult, Finding, LEVEL, Largest, Phrase, Said, Verdict};
 use crate::bdpt::{End, Strategy};
 use crate::math::Vec3;
 use crate::scene::material::{LAMBERT, TRANSPARENT, UNLIT, VARIES};
@@ -25,6 +25,7 @@ const ENOUGH: u64 = 1000;
 #[derive(Default)]
 struct Found {
     lengths: Vec<Moments>,
+    largest: Vec<Largest>,
     all: Moments,
     open: bool,
 }
@@ -33,6 +34,8 @@ impl Merge for Found {
     fn merge(&mut self, later: Self) {
         self.lengths.resize(self.lengths.len().max(later.lengths.len()), Moments::default());
         self.lengths.iter_mut().zip(&later.lengths).for_each(|(a, b)| a.merge(b));
+        self.largest.resize(self.largest.len().max(later.largest.len()), Largest::default());
+        self.largest.iter_mut().zip(&later.largest).for_each(|(a, b)| a.merge(b));
         self.all.merge(&later.all);
         self.open |= later.open;
     }
@@ -62,13 +65,16 @@ pub fn check(task: &mut Task) -> CheckResult {
     let (k, lens, factor) = (settings.max_edges, task.lens() == 1, task.control.factor);
     let (found, samples) = task.sweep(&settings, |context, sample, found: &mut Found| {
         let mut sums = vec![0.0; k as usize];
+        found.largest.resize(k as usize, Largest::default());
         // All that a walk meets must shine back along it.
         let dark = sample.eye.vertices.iter().skip(1).any(|v| v.n_g.dot(v.w_prev) <= 0.0 && material.two_sided == 0);
         found.open |= dark || sample.eye.end == End::Escaped || sample.light.end == End::Escaped;
         for strategy in Strategy::all(k, lens) {
             if let Ok(c) = sample.evaluate(context, strategy) {
-                let value = (c.contribution_unweighted * c.mis_weight).element_sum() / 3.0;
-                sums[strategy.edges() as usize - 1] += f64::from(value) * factor(strategy);
+                let value = mean(c.contribution_unweighted * c.mis_weight) * factor(strategy);
+                let length = strategy.edges() as usize - 1;
+                sums[length] += value;
+                found.largest[length].see(value, sample.id, strategy);
             }
         }
         found.lengths.resize(k as usize, Moments::default());
@@ -97,15 +103,16 @@ fn judge(found: &Found, material: &Material, samples: u64) -> CheckResult {
     };
     let (value, error) = (short(found.all.mean()), short(found.all.error()));
     let measured = Said::new(Phrase::MeasuredFurnace, &[&value, &error, &short(total), &short(worst), &short(limit), &LEVEL]);
-    let finding = |(k, moments, exact, _): &(Option<usize>, &Moments, f64, f64)| {
-        let [value, error, exact] = [moments.mean(), moments.error(), *exact].map(short);
+    let finding = |&&(k, moments, exact, _): &&(Option<usize>, &Moments, f64, f64)| {
+        let [value, error, exact] = [moments.mean(), moments.error(), exact].map(short);
         let meaning = match k {
-            Some(k) => Said::new(Phrase::WrongFurnace, &[k, &value, &error, &exact]),
+            Some(k) => Said::new(Phrase::WrongFurnace, &[&k, &value, &error, &exact]),
             None => Said::new(Phrase::WrongFurnaceSum, &[&value, &error, &exact]),
         };
-        Finding { meaning, look: Phrase::LookFurnace.into(), place: None }
+        let place = k.and_then(|k| found.largest.get(k - 1)?.place());
+        Finding { meaning, look: Phrase::LookFurnace.into(), place }
     };
-    let findings = if verdict == Verdict::Fail { failed.into_iter().map(finding).collect() } else { Vec::new() };
+    let findings = if verdict == Verdict::Fail { failed.iter().map(finding).collect() } else { Vec::new() };
     CheckResult {
         check: Check::Furnace,
         verdict,

@@ -9,16 +9,15 @@
 //! h keeps every value bounded and is 0 where one of the two cannot sample: what is compared are common paths, and rare ones count
 //! little. All three use the same samples, so their differences are tested as pairs, in blocks of the picture and as a whole.
 
-use super::said::{ratio, short};
+use super::pairwise::harmonic;
+use super::said::{pair, ratio, short};
 use super::stats::{Moments, z_limit};
 use super::sweep::{Merge, Task};
-use super::{Check, CheckResult, Finding, LEVEL, Phrase, Said, Verdict};
+use super::{Check, CheckResult, Finding, LEVEL, Largest, Phrase, Said, Verdict};
 use crate::bdpt::context::Context;
 use crate::bdpt::mis::log_densities;
 use crate::bdpt::path::FullPath;
 use crate::bdpt::{Settings, Strategy, StrategySet};
-use crate::report::check::pairwise::harmonic;
-use crate::report::check::said::pair;
 
 /// Longest paths, edges.
 const MOST_EDGES: u32 = 6;
@@ -39,6 +38,8 @@ struct Block {
     differences: [Moments; 2],
     /// What each strategy brings to PT and LT, by [`Strategy::index`].
     brings: [Vec<f64>; 2],
+    /// Where PT and LT have their largest value.
+    largest: [Largest; 2],
 }
 
 /// All blocks; the last one is the whole picture.
@@ -51,6 +52,7 @@ impl Merge for Found {
         for (a, b) in self.0.iter_mut().zip(&later.0) {
             a.means.iter_mut().zip(&b.means).for_each(|(a, b)| a.merge(b));
             a.differences.iter_mut().zip(&b.differences).for_each(|(a, b)| a.merge(b));
+            a.largest.iter_mut().zip(&b.largest).for_each(|(a, b)| a.merge(b));
             for (a, b) in a.brings.iter_mut().zip(&b.brings) {
                 a.resize(a.len().max(b.len()), 0.0);
                 a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
@@ -93,8 +95,7 @@ pub fn check(task: &mut Task) -> CheckResult {
             let at = [block(c.pixel), count - 1];
             at.iter().for_each(|&b| sums[b][0] += value * f64::from(c.mis_weight));
             // The same strategy at work in its family, with the weights of that.
-            for (n, (family, context)) in families.iter().zip(&contexts).enumerate().filter(|(_, (family, _))| family.contains(strategy)) {
-                debug_assert!(family.contains(strategy));
+            for (n, (_, context)) in families.iter().zip(&contexts).enumerate().filter(|(_, (family, _))| family.contains(strategy)) {
                 let Ok(c) = sample.evaluate(context, strategy) else { continue };
                 for &b in &at {
                     let own = value * f64::from(c.mis_weight);
@@ -102,6 +103,7 @@ pub fn check(task: &mut Task) -> CheckResult {
                     let brings = &mut found.0[b].brings[n];
                     brings.resize(brings.len().max(strategy.index() + 1), 0.0);
                     brings[strategy.index()] += own;
+                    found.0[b].largest[n].see(own, sample.id, strategy);
                 }
             }
         }
@@ -149,7 +151,7 @@ fn judge(found: &Found, size: [u32; 2], samples: u64) -> CheckResult {
             .filter_map(|x| Some((x, *block.brings[n].get(x.index())?)))
             .max_by(|a, b| a.1.total_cmp(&b.1))
             .map_or(String::new(), |(x, _)| pair(x.s, x.t));
-        Finding { meaning, look: Said::new(Phrase::LookIntegrator, &[&FAMILIES[n], &most]), place: None }
+        Finding { meaning, look: Said::new(Phrase::LookIntegrator, &[&FAMILIES[n], &most]), place: block.largest[n].place() }
     };
     // A few say enough.
     let findings = failed.iter().take(3).map(finding).collect();

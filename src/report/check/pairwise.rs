@@ -8,7 +8,7 @@
 use super::said::{pair, ratio, short};
 use super::stats::{Moments, z_limit};
 use super::sweep::{Merge, Task};
-use super::{Check, CheckResult, Finding, LEVEL, Phrase, Place, Said, Verdict};
+use super::{Check, CheckResult, Finding, LEVEL, Largest, Phrase, Said, Verdict};
 use crate::bdpt::mis::log_densities;
 use crate::bdpt::{Role, Settings, Strategy};
 use crate::rng::SampleId;
@@ -29,8 +29,8 @@ pub struct Compared {
     pub difference: Moments,
     /// Either side.
     pub sides: [Moments; 2],
-    /// The sample with the largest value, and which side it is of.
-    largest: Option<(f64, SampleId, usize)>,
+    /// Where either side has its largest value.
+    largest: [Largest; 2],
 }
 
 /// What was seen of all pairs that had anything.
@@ -43,9 +43,7 @@ impl Merge for Table {
             let own = self.0.entry(pair).or_default();
             own.difference.merge(&other.difference);
             own.sides.iter_mut().zip(&other.sides).for_each(|(a, b)| a.merge(b));
-            if other.largest.is_some_and(|(value, ..)| own.largest.is_none_or(|(old, ..)| value > old)) {
-                own.largest = other.largest;
-            }
+            own.largest.iter_mut().zip(&other.largest).for_each(|(a, b)| a.merge(b));
         }
     }
 }
@@ -72,7 +70,7 @@ pub fn sweep(task: &mut Task, settings: &Settings) -> (Table, u64) {
             let last = (k + lens) as usize;
             let estimates: Vec<Option<Estimate>> = (0..=k + lens)
                 .map(|s| {
-                    let strategy = Strategy::new(s, k + 1 - s);
+                    let strategy = strategy(k, s as usize);
                     let contribution = sample.evaluate(context, strategy).ok()?;
                     let mut ln_p = log_densities(&sample.path);
                     ln_p.iter_mut().zip(&sample.path.samplable).filter(|(_, can)| !**can).for_each(|(p, _)| *p = f64::NEG_INFINITY);
@@ -84,7 +82,7 @@ pub fn sweep(task: &mut Task, settings: &Settings) -> (Table, u64) {
                     let bounded = |of: usize| estimates[of].as_ref().map_or(0.0, |e| e.value * harmonic(e.ln_p[i], e.ln_p[j]));
                     let values = [bounded(i), bounded(j)];
                     if values != [0.0; 2] {
-                        see(table.0.entry((k, i, j)).or_default(), values, sample.id);
+                        see(table.0.entry((k, i, j)).or_default(), values, (k, [i, j]), sample.id);
                     }
                 }
             }
@@ -98,14 +96,18 @@ pub fn sweep(task: &mut Task, settings: &Settings) -> (Table, u64) {
     (table, samples)
 }
 
-fn see(compared: &mut Compared, values: [f64; 2], id: SampleId) {
+fn see(compared: &mut Compared, values: [f64; 2], (k, pair): (u32, [usize; 2]), id: SampleId) {
     compared.difference.add(values[0] - values[1]);
-    for (side, value) in values.into_iter().enumerate() {
+    for (side, (value, s)) in values.into_iter().zip(pair).enumerate() {
         compared.sides[side].add(value);
-        if compared.largest.is_none_or(|(old, ..)| value > old) {
-            compared.largest = Some((value, id, side));
+        if value != 0.0 {
+            compared.largest[side].see(value, id, strategy(k, s));
         }
     }
+}
+
+fn strategy(k: u32, s: usize) -> Strategy {
+    Strategy::new(s as u32, k + 1 - s as u32)
 }
 
 /// h = p_i p_j/(p_i + p_j)², from logarithms.
@@ -121,7 +123,7 @@ pub fn harmonic(ln_i: f64, ln_j: f64) -> f64 {
 pub fn check(task: &mut Task) -> CheckResult {
     let settings = task.settings(MOST_EDGES);
     let existence = task.job.existence();
-    let exists = |k: u32, s: usize| existence.absence(Strategy::new(s as u32, k + 1 - s as u32)).is_none();
+    let exists = |k: u32, s: usize| existence.absence(strategy(k, s)).is_none();
     let pairs = |k: u32| {
         let n = (0..=k as usize + 1).filter(|&s| exists(k, s)).count();
         n * n.saturating_sub(1) / 2
@@ -175,14 +177,12 @@ fn finding(table: &Table, failed: &[(Pair, f64)], k: u32) -> Option<(f64, Findin
     let compared = table.0.get(&worst)?;
     // The suspect's side, measured by the other's.
     let (own, other) = if worst.1 == suspect { (0, 1) } else { (1, 0) };
-    let strategy = |s: usize| Strategy::new(s as u32, k + 1 - s as u32);
-    let (a, b) = (strategy(suspect), strategy(if own == 0 { worst.2 } else { worst.1 }));
+    let (a, b) = (strategy(k, suspect), strategy(k, if own == 0 { worst.2 } else { worst.1 }));
     let scale = compared.sides[other].mean();
     let (share, error) = (compared.sides[own].mean() / scale, compared.difference.error() / scale);
     let meaning = Said::new(Phrase::WrongPair, &[&k, &pair(a.s, a.t), &ratio(share), &ratio(error), &pair(b.s, b.t)]);
     let look = Said::new(Phrase::LookPair, &[&pair(a.s, a.t), &blame(suspect).0, &here.len()]).with(sources(a).into());
-    let place = compared.largest.map(|(_, id, side)| Place::new(id, if side == own { a } else { b }));
-    Some((size(z), Finding { meaning, look, place }))
+    Some((size(z), Finding { meaning, look, place: compared.largest[own].place() }))
 }
 
 /// Where a strategy's own terms are computed.

@@ -10,7 +10,7 @@
 
 use super::said::{pair, short};
 use super::sweep::{Merge, Task};
-use super::{Check, CheckResult, Finding, Phrase, Place, Said, Verdict};
+use super::{Check, CheckResult, Control, Finding, Phrase, Place, Said, Verdict};
 use crate::bdpt::connect::Sample;
 use crate::bdpt::context::Context;
 use crate::bdpt::mis::{log_densities, mis_weight, mis_weights_by_definition};
@@ -146,13 +146,13 @@ impl Merge for Findings {
 
 /// Replays every feasible path of as many samples as the task has time for.
 pub fn sweep(task: &mut Task, settings: &Settings) -> (Findings, u64) {
-    let (spoil, lens) = (task.control.path, task.lens() == 1);
+    let (control, lens) = (task.control, task.lens() == 1);
     task.sweep(settings, |context, sample, found: &mut Findings| {
         for strategy in Strategy::all(settings.max_edges, lens) {
             if sample.evaluate(context, strategy).is_ok() {
                 let (y, z) = (sample.light_vertices(strategy), sample.eye_vertices(strategy));
                 let x: Vec<Vertex> = y.iter().chain(z.iter().rev()).copied().collect();
-                replay_path(context, &x, (sample, strategy), spoil, found);
+                replay_path(context, &x, (sample, strategy), &control, found);
             }
         }
     })
@@ -187,13 +187,7 @@ fn conditioning(context: &Context, x: &[Vertex]) -> f64 {
     sum.max(1.0)
 }
 
-fn replay_path(
-    context: &Context,
-    x: &[Vertex],
-    (sample, by): (&Sample, Strategy),
-    spoil: fn(&mut FullPath, &[Vertex], usize),
-    found: &mut Findings,
-) {
+fn replay_path(context: &Context, x: &[Vertex], (sample, by): (&Sample, Strategy), control: &Control, found: &mut Findings) {
     let original = &sample.path;
     let (ln_p, heuristic, slack) = (log_densities(original), &context.settings.heuristic, conditioning(context, x));
     let (mut sum, mut complete, mut above) = (0.0, true, false);
@@ -223,13 +217,14 @@ fn replay_path(
             }
         };
         found.splits += 1;
-        spoil(&mut rebuilt.path, x, s);
+        (control.path)(&mut rebuilt.path, x, s);
+        let factor = (control.factor)(Strategy::new(at.s, by.edges() + 1 - at.s)).ln();
         above |= compare_densities(original, &rebuilt, (&ln_p, slack), at, &mut found.density);
         let weight = f64::from(mis_weight(&rebuilt.path, s, heuristic));
         above |= found.forms.see((mis_weights_by_definition(&rebuilt.path, &rebuilt.path.active, heuristic)[s] - weight).abs(), at);
         sum += weight;
         // f = C* n p, by this strategy's own α, connection and densities.
-        let f = rebuilt.contribution.contribution_unweighted.to_array().map(|c| f64::from(c).ln() + rebuilt.ln_p);
+        let f = rebuilt.contribution.contribution_unweighted.to_array().map(|c| f64::from(c).ln() + rebuilt.ln_p + factor);
         let first = *f_first.get_or_insert(f);
         for (a, b) in f.into_iter().zip(first).filter(|(a, b)| a != b) {
             above |= found.f.see((a - b).abs() / slack, at);
