@@ -26,7 +26,8 @@ const HOMES: &[(&str, &[&str])] = &[
     ("indicatif", &["cli/"]),
     ("obvhs", &["scene/bvh.rs"]),
     ("pollster", &["engine/"]),
-    ("rayon", &["bdpt/", "film/", "engine.rs", "engine/", "scene/gltf/images.rs"]),
+    ("rayon", &["bdpt/", "film/", "engine.rs", "engine/", "report/check/", "scene/gltf/images.rs"]),
+    ("statrs", &["report/check/"]),
     ("wgpu", &["gpu/", "ui/"]),
     ("winit", &["ui/"]),
 ];

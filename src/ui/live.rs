@@ -1,6 +1,7 @@
 //! What the state asks for, made real: loads scenes, keeps the engine in step with the state, and re-runs the selected sample
 //! when (and only when) something it depends on has changed. Nothing here waits: scenes load and images render elsewhere.
 
+use super::checks::Runner;
 use super::export::{Saver, Sources};
 use super::inspector;
 use super::loader::{Failure, Loader};
@@ -66,6 +67,7 @@ pub struct Live {
     /// What was said of the scene on show.
     noted: Option<String>,
     saver: Saver,
+    checks: Runner,
 }
 
 impl Live {
@@ -88,6 +90,7 @@ impl Live {
             unreadable: None,
             noted: None,
             saver: Saver::new(wake),
+            checks: Runner::default(),
         }
     }
 
@@ -113,12 +116,15 @@ impl Live {
         // First the picture that is there, then the next one's job: a lens that is dragged shows every step of the way.
         let new_frame = self.sync_frame();
         let restarted = self.sync_job(state);
+        let checked = self.checks.sync(state, self.engine.as_ref(), &self.wake);
         if let Some(engine) = &mut self.engine {
             if engine.hidden() != state.hidden {
                 engine.set_hidden(state.hidden);
             }
-            if engine.paused() != state.paused {
-                engine.set_paused(state.paused);
+            // The processor belongs to the checks while they run.
+            let paused = state.paused || self.checks.running();
+            if engine.paused() != paused {
+                engine.set_paused(paused);
             }
             engine.set_wish(study::wish(state, self.frame.as_deref()));
         }
@@ -126,7 +132,7 @@ impl Live {
         let new_record = self.sync_record(state);
         let record = self.record(state);
         let saved = self.saver.sync(state, Sources { engine: self.engine.as_ref(), frame: self.frame.as_ref(), record });
-        loaded || restarted || new_frame || new_record || searching || saved
+        loaded || restarted || checked || new_frame || new_record || searching || saved
     }
 
     /// The scene on show.
@@ -162,6 +168,11 @@ impl Live {
     /// What is being rendered.
     pub fn engine(&self) -> Option<&Engine> {
         self.engine.as_ref()
+    }
+
+    /// The checks, and what came of them.
+    pub fn checks(&self) -> &Runner {
+        &self.checks
     }
 
     /// Which strategies exist in what is being rendered, and why the others do not.

@@ -1,6 +1,6 @@
 //! Everything a person can change in the window, as plain data: panels show it and edit it, and nothing else happens here.
 
-pub use super::checks::ChecksState;
+pub use super::checks::{Ask, ChecksState};
 pub use super::compare::{CompareState, Mode as CompareMode, Source};
 pub use super::edit::EditState;
 pub use super::export::ExportState;

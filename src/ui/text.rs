@@ -38,7 +38,7 @@ mod table;
 mod tour;
 mod view;
 
-pub use check::CheckText;
+pub use check::{CheckText, phrase_text, said};
 pub use edit::EditText;
 pub use export::ExportText;
 pub use inspect::InspectText;
