@@ -29,7 +29,7 @@ pub fn record(job: &Job, pixel: [u32; 2], sample: u32) -> Result<PathRecord, Job
         return Err(JobError(format!("pixel {},{}: outside the {width}x{height} film (0,0 is its top left)", pixel[0], pixel[1])));
     }
     let view = job.view();
-    Ok(record_sample(&Context::new(&job.scene, &view, &job.settings), pixel, sample))
+    Ok(PathRecord { pose: job.pose, ..record_sample(&Context::new(&job.scene, &view, &job.settings), pixel, sample) })
 }
 
 /// How far away, along the axis, what a pixel shows is: the first hit of the ray from the middle of the lens through the

@@ -10,6 +10,7 @@ use super::reason::Reason;
 use super::settings::Heuristic;
 use super::strategy::Strategy;
 use super::vertex::End;
+use crate::scene::Pose;
 use serde::{Serialize, Serializer};
 
 /// In what a density is measured.
@@ -204,6 +205,9 @@ pub struct PathRecord {
     pub scene: String,
     /// Camera.
     pub camera: String,
+    /// Where the camera was moved to; `None` = it stands where the file has it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pose: Option<Pose>,
     /// Pixel, from the top left.
     pub pixel: [u32; 2],
     /// Sample number.

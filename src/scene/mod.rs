@@ -20,6 +20,7 @@ pub mod gltf;
 pub mod light;
 pub mod material;
 pub mod parts;
+pub mod pose;
 pub mod progress;
 mod read;
 pub mod sphere;
@@ -36,6 +37,7 @@ pub use features::{General, Matte, Opaque, SceneFeatures, Shape};
 pub use light::Lights;
 pub use material::{COAT, CONDUCTOR, DIELECTRIC, LAMBERT, MIRROR, Material, THIN_DIELECTRIC};
 pub use parts::Parts;
+pub use pose::Pose;
 pub use progress::Progress;
 pub use surface::{Look, SurfacePoint};
 

@@ -54,8 +54,9 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
     }
     crosshair(&painter, state, image);
     if let Some(scene) = live.scene()
-        && let Some(projector) = Projector::new(scene, state.camera, state.size, [image, panel])
+        && let Some(camera) = live.camera(state)
     {
+        let projector = Projector::new(scene, &camera, state.size, [image, panel]);
         overlay::show(ui, &painter, state, live, &projector);
     }
     if state.picking_focus {

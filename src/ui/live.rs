@@ -8,12 +8,12 @@ use super::wake::Wake;
 use crate::bdpt::record::StrategyRecord;
 use crate::bdpt::{Existence, PathRecord};
 use crate::engine::{self, Engine, Frame, Job};
-use crate::scene::{Lens, Scene, builtin};
+use crate::scene::{Camera, Lens, Scene, builtin};
 use std::sync::Arc;
 use std::time::Duration;
 use web_time::Instant;
 
-/// How long a lens that is being dragged waits for the picture of its predecessor.
+/// How long a lens or a camera that is being dragged waits for the picture of its predecessor.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// What exists while there is no scene to ask.
@@ -105,7 +105,7 @@ impl Live {
         state.clamp();
         let loaded = self.finish_loading(state);
         self.focus(state);
-        // First the picture that is there, then the next one's job: a lens that is dragged shows every step of the way.
+        // First the picture that is there, then the next one's job: a lens or a camera that is dragged shows every step of the way.
         let new_frame = self.sync_frame();
         let restarted = self.sync_job(state);
         if let Some(engine) = &mut self.engine {
@@ -148,6 +148,13 @@ impl Live {
     /// The lens in use.
     pub fn lens(&self, state: &State) -> Option<Lens> {
         state.lens.or_else(|| Some(self.scene()?.cameras.get(state.camera)?.lens))
+    }
+
+    /// The camera where it stands, with the lens in use.
+    pub fn camera(&self, state: &State) -> Option<Camera> {
+        let scene = self.scene()?;
+        let camera = Camera { lens: self.lens(state)?, ..scene.cameras.get(state.camera)?.clone() };
+        Some(state.pose.map_or(camera.clone(), |pose| pose.camera(scene, &camera)))
     }
 
     /// What is being rendered.
@@ -264,18 +271,21 @@ impl Live {
     fn sync_job(&mut self, state: &mut State) -> bool {
         let Some(shown) = self.shown.clone() else { return false };
         let current = self.engine.as_ref().map(Engine::job);
-        let same_but_for_lens = current.is_some_and(|job| {
+        let same_but_for_dragging = current.is_some_and(|job| {
             Arc::ptr_eq(&job.scene, &shown.scene)
                 && (job.camera, job.size, job.settings, job.backend) == (state.camera, state.size, state.settings, state.prefs.backend)
                 && !state.restart
         });
-        if same_but_for_lens && (current.is_some_and(|job| job.lens == state.lens) || self.picture_is_coming()) {
+        if same_but_for_dragging
+            && (current.is_some_and(|job| (job.pose, job.lens) == (state.pose, state.lens)) || self.picture_is_coming())
+        {
             return false;
         }
         let moved = self.running.as_ref().is_some_and(|old| old.opening.scene != shown.opening.scene);
         state.restart = false;
         let job = Job {
             camera: state.camera,
+            pose: state.pose,
             lens: state.lens,
             size: state.size,
             settings: state.settings,
@@ -299,7 +309,7 @@ impl Live {
                 // The old rendering goes on: the state says what is running.
                 if let Some(job) = self.engine.as_ref().map(Engine::job) {
                     state.resize(job.size);
-                    (state.settings, state.camera, state.lens) = (job.settings, job.camera, job.lens);
+                    (state.settings, state.camera, state.pose, state.lens) = (job.settings, job.camera, job.pose, job.lens);
                     state.prefs.backend = job.backend;
                 }
                 state.tell(true, error.0);

@@ -4,7 +4,7 @@
 //! no image, and its mirror image would be a lie), then in two at a rectangle, so that no dash is drawn where nobody sees it.
 
 use crate::math::{DVec3, Vec2, Vec3};
-use crate::scene::{Scene, View};
+use crate::scene::{Camera, Scene, View};
 use eframe::egui::{self, Pos2, Rect};
 
 /// The scene's camera together with the image's place on the screen.
@@ -20,9 +20,8 @@ pub struct Projector {
 impl Projector {
     /// The projection through the centre of the lens of a camera of `scene`, for a film of `size` pixels shown at `image`, seen
     /// through `clip`.
-    pub fn new(scene: &Scene, camera: usize, size: [u32; 2], [image, clip]: [Rect; 2]) -> Option<Self> {
-        let camera = scene.cameras.get(camera)?;
-        Some(Self { view: View::new(scene, camera, size), origin: scene.origin, image, clip })
+    pub fn new(scene: &Scene, camera: &Camera, size: [u32; 2], [image, clip]: [Rect; 2]) -> Self {
+        Self { view: View::new(scene, camera, size), origin: scene.origin, image, clip }
     }
 
     /// The screen position of a raster position, pixels.
@@ -88,7 +87,7 @@ pub fn clip_segment(rect: Rect, a: Pos2, b: Pos2) -> Option<[Pos2; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Camera, Lens};
+    use crate::scene::Lens;
     use eframe::egui::pos2;
 
     fn projector() -> Projector {

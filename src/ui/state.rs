@@ -9,8 +9,8 @@ pub use super::study::StudyState;
 use super::text::{Lang, Text, Words};
 use crate::bdpt::{Existence, Settings, Strategy, StrategySet};
 use crate::film::tonemap::ToneMap;
-use crate::scene::Lens;
 use crate::scene::environment::EnvironmentSource;
+use crate::scene::{Lens, Pose};
 use eframe::egui;
 
 /// What is looked at; every panel follows it.
@@ -117,6 +117,8 @@ pub struct State {
     pub turning: Option<f64>,
     /// Which of the scene's cameras.
     pub camera: usize,
+    /// Where that camera stands; `None` = where the file has it.
+    pub pose: Option<Pose>,
     /// The lens; `None` = the camera's own.
     pub lens: Option<Lens>,
     /// The next click on the image focuses instead of selecting.
@@ -171,6 +173,7 @@ impl State {
             environment_field: String::new(),
             turning: None,
             camera: 0,
+            pose: None,
             lens: None,
             picking_focus: false,
             focus_on: None,
@@ -212,9 +215,9 @@ impl State {
         self.selection.vertex = self.selection.vertex.min(strategy.edges() as usize);
     }
 
-    /// Chooses one of the scene's cameras, with its own lens.
+    /// Chooses one of the scene's cameras, where it stands and with its own lens.
     pub fn choose_camera(&mut self, camera: usize) {
-        (self.camera, self.lens) = (camera, None);
+        (self.camera, self.pose, self.lens) = (camera, None, None);
         (self.picking_focus, self.focus_on) = (false, None);
     }
 

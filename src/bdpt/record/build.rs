@@ -30,6 +30,8 @@ pub fn record(context: &Context, pixel: [u32; 2], sample: u32) -> PathRecord {
         version: RECORD_VERSION,
         scene: scene.name.clone(),
         camera: context.view.name.clone(),
+        // A view does not know whether it was moved: who made it fills this in.
+        pose: None,
         pixel,
         sample,
         seed: settings.seed,
