@@ -27,6 +27,7 @@ const HOMES: &[(&str, &[&str])] = &[
     ("obvhs", &["scene/bvh.rs"]),
     ("pollster", &["engine/"]),
     ("rayon", &["bdpt/", "film/", "engine.rs", "engine/", "scene/gltf/images.rs"]),
+    ("rfd", &["ui/"]),
     ("wgpu", &["gpu/", "ui/"]),
     ("winit", &["ui/"]),
 ];

@@ -55,6 +55,12 @@ pub struct VertexRecord {
     pub light_name: Option<String>,
     /// The material's name in the file; `None` where there is no surface.
     pub material: Option<String>,
+    /// The material's number in the scene.
+    #[serde(skip)]
+    pub material_index: Option<u32>,
+    /// The light's number in the scene, if it lies on one.
+    #[serde(skip)]
+    pub light_index: Option<u32>,
     /// The material's model.
     pub model: Option<&'static str>,
     /// What the material looks like here; `None` where there is no surface.

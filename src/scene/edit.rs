@@ -11,6 +11,8 @@
 mod lights;
 mod materials;
 
+pub use materials::hue_and_strength;
+
 use super::assemble::MAX_EXTENT;
 use super::environment::MAX_RADIANCE;
 use super::{Scene, sphere::Sphere};

@@ -1,6 +1,7 @@
 //! The progressive image: zoom around the cursor, pan, pick a pixel, crosshair. A click is a press and release without a drag.
 
 use super::camera_bar;
+use super::edit;
 use super::keys::{self, Action};
 use super::live::Live;
 use super::overlay;
@@ -32,7 +33,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
     let panel = ui.available_rect_before_wrap();
     ui.advance_cursor_after_rect(panel);
     let response = ui.interact(panel, id(), Sense::click_and_drag());
-    let image = navigate(ui, state, &response, panel);
+    let image = navigate(ui, state, live, &response, panel);
     name(ui, state, &response);
     let painter = ui.painter().with_clip_rect(panel);
     painter.rect_filled(panel, CornerRadius::ZERO, theme::backdrop(ui.visuals()));
@@ -168,18 +169,21 @@ fn show_menu(ui: &mut Ui, state: &mut State) {
 }
 
 /// Zoom, pan and pick; where the film ends up.
-fn navigate(ui: &Ui, state: &mut State, response: &Response, panel: Rect) -> Rect {
+fn navigate(ui: &Ui, state: &mut State, live: &Live, response: &Response, panel: Rect) -> Rect {
     let size = vec2(state.size[0] as f32, state.size[1] as f32);
     let (mut zoom, mut centre) = match state.placement {
         Placement::Fit => (fit_zoom(size, panel), size * 0.5),
         Placement::Free { zoom, centre } => (zoom, centre),
     };
     let mut moved = false;
-    if response.dragged() {
+    // The camera's hand comes first: what it takes does not move the picture.
+    let image = Rect::from_min_size(panel.center() - centre * zoom, size * zoom);
+    let steered = edit::hand::steer(ui, state, live, response, image);
+    if response.dragged() && !steered {
         centre -= response.drag_delta() / zoom;
         moved = response.drag_delta() != Vec2::ZERO;
     }
-    if let Some(cursor) = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer()) {
+    if let Some(cursor) = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer() && !steered) {
         let factor = ui.input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y * 0.004).exp());
         if factor != 1.0 {
             let under = centre + (cursor - panel.center()) / zoom;

@@ -1,5 +1,6 @@
 //! Every key, in one table: it is what the program obeys, what the help window lists and what tooltips quote.
 
+use super::edit::history;
 use super::state::{Placement, State};
 use super::text::Text;
 use crate::bdpt::Strategy;
@@ -29,6 +30,10 @@ pub enum Action {
     Hide,
     /// Focus on the selected pixel, or on the one clicked next.
     Focus,
+    /// Take a step back, or forth.
+    Undo,
+    /// Take an undone step again.
+    Redo,
     /// The list of keys.
     Help,
 }
@@ -49,7 +54,12 @@ pub struct Binding {
 impl Binding {
     /// Does the key act again and again while it is held? What it switches on it must not switch off at once.
     fn repeats(&self) -> bool {
-        matches!(self.action, Action::Nudge | Action::Sample | Action::Exposure | Action::Vertex)
+        matches!(self.action, Action::Nudge | Action::Sample | Action::Exposure | Action::Vertex | Action::Undo | Action::Redo)
+    }
+
+    /// Does it take Ctrl (on a Mac: Command)?
+    fn command(&self) -> bool {
+        matches!(self.action, Action::Undo | Action::Redo)
     }
 }
 
@@ -65,6 +75,8 @@ pub const TABLE: &[Binding] = &[
     Binding { action: Action::Fit, shown: "F", text: Text::KeyFit, keys: &[Key::F], shift: false },
     Binding { action: Action::ResetView, shown: "R", text: Text::KeyReset, keys: &[Key::R], shift: false },
     Binding { action: Action::Pause, shown: "P", text: Text::KeyPause, keys: &[Key::P], shift: false },
+    Binding { action: Action::Undo, shown: "Ctrl+Z, Ctrl+Shift+Z", text: Text::KeyUndo, keys: &[Key::Z], shift: true },
+    Binding { action: Action::Redo, shown: "Ctrl+Y", text: Text::KeyRedo, keys: &[Key::Y], shift: false },
     Binding { action: Action::Help, shown: "?", text: Text::KeyHelp, keys: &[Key::Questionmark], shift: true },
 ];
 
@@ -79,14 +91,15 @@ pub fn hint(state: &State, text: Text, action: Action) -> String {
 
 /// Obeys the keys pressed in this pass. A text field with the focus gets them all; a focused widget keeps Space and the arrows.
 pub fn obey(ctx: &egui::Context, state: &mut State, image: egui::Id) {
-    if ctx.text_edit_focused() {
+    // While the hand flies the camera, letters steer it.
+    if ctx.text_edit_focused() || state.edit.flying() {
         return;
     }
     let elsewhere = ctx.memory(|memory| memory.focused()).is_some_and(|id| id != image);
-    for (pressed, shift, repeat) in ctx.input(presses) {
+    for Press { key: pressed, shift, repeat, command } in ctx.input(presses) {
         for row in TABLE {
             let kept = elsewhere && matches!(row.action, Action::Nudge | Action::Vertex);
-            if kept || (shift && !row.shift) || (repeat && !row.repeats()) {
+            if kept || command != row.command() || (shift && !row.shift) || (repeat && !row.repeats()) {
                 continue;
             }
             if let Some(index) = row.keys.iter().position(|key| *key == pressed) {
@@ -99,11 +112,19 @@ pub fn obey(ctx: &egui::Context, state: &mut State, image: egui::Id) {
     }
 }
 
-/// The keys pressed since the last pass, in order and each as often as it was, with Shift, and whether it is only held down.
-fn presses(input: &egui::InputState) -> Vec<(Key, bool, bool)> {
+/// A key that went down, or is held down (`repeat`).
+struct Press {
+    key: Key,
+    shift: bool,
+    repeat: bool,
+    command: bool,
+}
+
+/// The keys pressed since the last pass, in order and each as often as it was.
+fn presses(input: &egui::InputState) -> Vec<Press> {
     let key = |event: &egui::Event| match event {
-        egui::Event::Key { key, pressed: true, repeat, modifiers, .. } if !modifiers.ctrl && !modifiers.alt && !modifiers.command => {
-            Some((*key, modifiers.shift, *repeat))
+        egui::Event::Key { key, pressed: true, repeat, modifiers, .. } if !modifiers.alt && (modifiers.command || !modifiers.ctrl) => {
+            Some(Press { key: *key, shift: modifiers.shift, repeat: *repeat, command: modifiers.command })
         }
         _ => None,
     };
@@ -150,6 +171,8 @@ pub fn perform(state: &mut State, action: Action, index: usize, shift: bool) {
         }
         Action::Focus if shift => state.picking_focus = !state.picking_focus,
         Action::Focus => (state.picking_focus, state.focus_on) = (false, Some(state.selection.pixel)),
+        Action::Undo => history::go(state, !shift),
+        Action::Redo => history::go(state, false),
         Action::Help => state.help = !state.help,
     }
 }

@@ -91,6 +91,8 @@ mod tests {
             light: None,
             light_name: None,
             material: None,
+            material_index: None,
+            light_index: None,
             model: None,
             look: None,
             emitter: false,

@@ -70,6 +70,8 @@ fn vertex_record(scene: &Scene, v: &Vertex) -> VertexRecord {
         light: v.emits().then(|| scene.lights.list[v.light as usize].kind_name()),
         light_name: scene.lights.name(v.light).map(str::to_owned),
         material: on_surface.then(|| scene.material_names[v.material as usize].clone()),
+        material_index: on_surface.then_some(v.material),
+        light_index: v.emits().then_some(v.light),
         model: on_surface.then(|| scene.materials[v.material as usize].kind_name()),
         look: on_surface.then(|| LookRecord {
             color: v.look.color.to_array(),
