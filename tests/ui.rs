@@ -15,6 +15,8 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+#[path = "ui/edit.rs"]
+mod edit;
 #[path = "ui/existence.rs"]
 mod existence;
 #[path = "common/glb.rs"]

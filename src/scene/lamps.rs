@@ -101,7 +101,7 @@ mod tests {
         let [lamp] = &scene.lamps()[..] else { panic!("{:?}", scene.lamps()) };
         assert_eq!((lamp.triangles.len(), lamp.material), (2, scene.triangles[lamp.triangles[0] as usize].material));
         let centre = scene.in_file(lamp.centroid);
-        assert!(centre[0].abs() < 1e-3 && centre[1] > 0.9, "under the ceiling: {centre:?}");
+        assert!((centre[0] - 0.278).abs() < 1e-6 && (centre[1] - 0.548).abs() < 1e-6, "under the ceiling: {centre:?}");
         assert!(lamp.triangles.iter().all(|&t| scene.lamp_of(t) == Some(0)));
         assert_eq!(scene.lamp_of(u32::MAX), None);
         let balls = builtin::open("sphere-lights").unwrap();

@@ -82,6 +82,10 @@ impl History {
     /// Looks at the state; `held`: is a pointer pressed?
     pub fn watch(&mut self, now: Snapshot, held: bool, time: Instant) {
         let let_go = self.held && !held;
+        if held && !self.held {
+            // Whatever was typed before is a step of its own.
+            self.close();
+        }
         self.held = held;
         let changed = self.present.as_ref().filter(|old| **old != now).cloned();
         if let Some(old) = changed {
@@ -188,11 +192,11 @@ mod tests {
             random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             time += Duration::from_secs(1);
             match random >> 24 {
-                0..=90 if place > 0 => {
+                0..=60 if place > 0 => {
                     go(&mut state, true);
                     place -= 1;
                 }
-                91..=150 if place + 1 < walked.len() => {
+                61..=90 if place + 1 < walked.len() => {
                     go(&mut state, false);
                     place += 1;
                 }
@@ -233,6 +237,12 @@ mod tests {
             state.settings.max_edges += 1;
             watch(&mut state, false, 4250 + 100 * i);
         }
+        // A key, and at once a click that takes it back: two steps.
+        state.settings.seed = 7;
+        watch(&mut state, false, 4400);
+        watch(&mut state, true, 4450);
+        state.settings.seed = 0;
+        watch(&mut state, false, 4500);
         // Keys: one after the other quickly, then another kind.
         for i in 0..3 {
             state.settings.seed += 1;
@@ -245,7 +255,11 @@ mod tests {
             go(&mut state, true);
             seen.push((state.camera, state.settings.seed, state.settings.max_edges, state.edit.edits.environment.strength));
         }
-        assert_eq!(seen, [(0, 3, 8, Some(39.0)), (0, 0, 8, Some(39.0)), (0, 0, 7, Some(39.0)), (0, 0, 6, Some(39.0)), (0, 0, 6, None)]);
+        assert_eq!(seen[..2], [(0, 3, 8, Some(39.0)), (0, 0, 8, Some(39.0))]);
+        assert_eq!(
+            seen[2..],
+            [(0, 7, 8, Some(39.0)), (0, 0, 8, Some(39.0)), (0, 0, 7, Some(39.0)), (0, 0, 6, Some(39.0)), (0, 0, 6, None)]
+        );
     }
 
     #[test]

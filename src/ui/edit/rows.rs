@@ -96,9 +96,13 @@ pub fn color_row(ui: &mut Ui, named: Named, slot: &mut Option<[f32; 3]>, own: [f
     let mut value = old;
     let help = named.help.in_language(named.lang);
     let reset = row(ui, named, slot.is_some(), |ui, spoken| {
-        let button = ui.color_edit_button_rgb(&mut value);
+        // The picker rounds what it is shown, even if nobody touches it.
+        let mut picked = value;
+        let button = ui.color_edit_button_rgb(&mut picked);
         speak(&button, spoken);
-        button.on_hover_text(help);
+        if button.on_hover_text(help).changed() {
+            value = picked;
+        }
         for (channel, letter) in value.iter_mut().zip(["R", "G", "B"]) {
             let field = ui.add(DragValue::new(channel).range(0.0..=1.0).speed(0.005).max_decimals(3).update_while_editing(false));
             speak(&field, &format!("{spoken} {letter}"));
