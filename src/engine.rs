@@ -40,7 +40,7 @@ pub use thread::{Engine, Layers};
 pub fn record(job: &Job, pixel: [u32; 2], sample: u32) -> Result<PathRecord, JobError> {
     check_pixel(job, pixel)?;
     let view = job.view();
-    Ok(record_sample(&Context::new(&job.scene, &view, &job.settings), pixel, sample))
+    Ok(PathRecord { pose: job.pose, ..record_sample(&Context::new(&job.scene, &view, &job.settings), pixel, sample) })
 }
 
 /// Can samples of this pixel be run again?

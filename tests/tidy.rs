@@ -27,6 +27,7 @@ const HOMES: &[(&str, &[&str])] = &[
     ("obvhs", &["scene/bvh.rs"]),
     ("pollster", &["engine/"]),
     ("rayon", &["bdpt/", "film/", "engine.rs", "engine/", "report/check/", "scene/gltf/images.rs"]),
+    ("rfd", &["ui/"]),
     ("statrs", &["report/check/"]),
     ("wgpu", &["gpu/", "ui/"]),
     ("winit", &["ui/"]),

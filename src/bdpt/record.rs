@@ -10,6 +10,7 @@ use super::reason::Reason;
 use super::settings::Heuristic;
 use super::strategy::Strategy;
 use super::vertex::End;
+use crate::scene::Pose;
 use serde::{Serialize, Serializer};
 
 /// In what a density is measured.
@@ -72,6 +73,12 @@ pub struct VertexRecord {
     pub light_name: Option<String>,
     /// The material's name in the file; `None` where there is no surface.
     pub material: Option<String>,
+    /// The material's number in the scene.
+    #[serde(skip)]
+    pub material_index: Option<u32>,
+    /// The light's number in the scene, if it lies on one.
+    #[serde(skip)]
+    pub light_index: Option<u32>,
     /// The material's model.
     pub model: Option<&'static str>,
     /// What the material looks like here; `None` where there is no surface.
@@ -231,6 +238,9 @@ pub struct PathRecord {
     pub scene: String,
     /// Camera.
     pub camera: String,
+    /// Where the camera was moved to; `None` = it stands where the file has it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pose: Option<Pose>,
     /// Pixel, from the top left.
     pub pixel: [u32; 2],
     /// Sample number.

@@ -39,7 +39,8 @@ pub fn click(ui: &Ui, state: &mut State, live: &Live, places: [Rect; 2], cursor:
         return false;
     }
     let (Some(scene), Some(record)) = (live.scene(), live.record(state)) else { return false };
-    let Some(projector) = Projector::new(scene, state.camera, state.size, places) else { return false };
+    let Some(camera) = live.camera(state) else { return false };
+    let projector = Projector::new(scene, &camera, state.size, places);
     let Some((target, _)) = at(state, record, &projector, cursor) else { return false };
     match target {
         Target::Light(i) => light_vertex(state, record, i),

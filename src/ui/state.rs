@@ -14,8 +14,8 @@ pub use super::tour::Before;
 use crate::bdpt::{Existence, Settings, Strategy, StrategySet};
 use crate::engine::Mode;
 use crate::film::tonemap::{Look, ToneMap};
-use crate::scene::Lens;
 use crate::scene::environment::EnvironmentSource;
+use crate::scene::{Lens, Pose};
 use eframe::egui;
 
 /// What is looked at; every panel follows it.
@@ -122,6 +122,8 @@ pub struct State {
     pub turning: Option<f64>,
     /// Which of the scene's cameras.
     pub camera: usize,
+    /// Where that camera stands; `None` = where the file has it.
+    pub pose: Option<Pose>,
     /// The lens; `None` = the camera's own.
     pub lens: Option<Lens>,
     /// The next click on the image focuses instead of selecting.
@@ -184,6 +186,7 @@ impl State {
             environment_field: String::new(),
             turning: None,
             camera: 0,
+            pose: None,
             lens: None,
             picking_focus: false,
             focus_on: None,
@@ -242,9 +245,9 @@ impl State {
         self.selection.vertex = self.selection.vertex.min(strategy.edges() as usize);
     }
 
-    /// Chooses one of the scene's cameras, with its own lens.
+    /// Chooses one of the scene's cameras, where it stands and with its own lens.
     pub fn choose_camera(&mut self, camera: usize) {
-        (self.camera, self.lens) = (camera, None);
+        (self.camera, self.pose, self.lens) = (camera, None, None);
         (self.picking_focus, self.focus_on) = (false, None);
     }
 

@@ -49,20 +49,20 @@ fn a_check_that_means_nothing_says_why() {
     assert_eq!(furnace(scene("spots")), Phrase::FurnaceLights);
     // A furnace with a hole, and one that partly glows outwards, are none.
     let mut one_side_dark = scene("furnace");
-    let triangle = &mut one_side_dark.triangles[0];
+    let triangle = &mut Arc::make_mut(&mut one_side_dark.triangles)[0];
     (triangle.p1, triangle.p2) = (triangle.p2, triangle.p1);
     assert_eq!(furnace(one_side_dark), Phrase::FurnaceOpen);
     let mut two_colours = scene("furnace");
     let mut other = two_colours.materials[two_colours.triangles[0].material as usize];
     other.color *= 0.9;
     two_colours.materials.push(other);
-    two_colours.triangles[3].material = two_colours.materials.len() as u32 - 1;
+    Arc::make_mut(&mut two_colours.triangles)[3].material = two_colours.materials.len() as u32 - 1;
     assert_eq!(furnace(two_colours), Phrase::FurnaceMaterial);
     // Without light there is nothing to check.
     let mut dark = scene("cornell");
     dark.lights.list.clear();
     dark.features.area_lights = false;
-    dark.triangles.iter_mut().for_each(|triangle| triangle.light = bdpt_explorer::scene::NONE);
+    Arc::make_mut(&mut dark.triangles).iter_mut().for_each(|triangle| triangle.light = bdpt_explorer::scene::NONE);
     let dark = job_of(dark);
     assert_eq!(reason(&one(&dark, Check::Pairwise, 0.01, Control::default())), Phrase::OneStrategy);
     assert_eq!(reason(&one(&dark, Check::Integrators, 0.01, Control::default())), Phrase::NoFamily);

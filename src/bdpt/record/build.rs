@@ -32,6 +32,8 @@ pub fn record(context: &Context, pixel: [u32; 2], sample: u32) -> PathRecord {
         version: RECORD_VERSION,
         scene: scene.name.clone(),
         camera: context.view.name.clone(),
+        // A view does not know whether it was moved: who made it fills this in.
+        pose: None,
         pixel,
         sample,
         seed: settings.seed,
@@ -110,6 +112,8 @@ fn vertex_record(context: &Context, v: &Vertex, before: Option<&Vertex>) -> Vert
         light: v.emits().then(|| scene.lights.list[v.light as usize].kind_name()),
         light_name: scene.lights.name(v.light).map(str::to_owned),
         material: on_surface.then(|| scene.material_names[v.material as usize].clone()),
+        material_index: on_surface.then_some(v.material),
+        light_index: v.emits().then_some(v.light),
         model: on_surface.then(|| scene.materials[v.material as usize].kind_name()),
         look: look_record(scene, v),
         emitter: v.emits(),

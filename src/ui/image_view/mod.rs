@@ -81,8 +81,9 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, desk: &mut Desk) -> Rec
     digits::show(ui, &painter, state, live, (&pair, [panel, image]));
     crosshair(&painter, state, image);
     if let Some(scene) = live.scene()
-        && let Some(projector) = Projector::new(scene, state.camera, state.size, [image, panel])
+        && let Some(camera) = live.camera(state)
     {
+        let projector = Projector::new(scene, &camera, state.size, [image, panel]);
         overlay::show(ui, &painter, state, live, &projector);
         if let Some(record) = live.record(state) {
             mark_pick::hover(ui, state, record, &projector);

@@ -1,5 +1,6 @@
 //! Zoom around the cursor, pan, and the click that picks a pixel.
 
+use super::super::edit;
 use super::super::live::Live;
 use super::super::mark_pick;
 use super::super::state::{Placement, State};
@@ -16,11 +17,14 @@ pub fn show(ui: &Ui, state: &mut State, live: &Live, response: &Response, panel:
     if moved {
         zoom = 1.0 / ui.pixels_per_point();
     }
-    if response.dragged() {
+    // The camera's hand comes first: what it takes does not move the picture.
+    let image = Rect::from_min_size(panel.center() - centre * zoom, size * zoom);
+    let steered = edit::hand::steer(ui, state, live, response, image);
+    if response.dragged() && !steered {
         centre -= response.drag_delta() / zoom;
         moved |= response.drag_delta() != Vec2::ZERO;
     }
-    if let Some(cursor) = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer()) {
+    if let Some(cursor) = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer() && !steered) {
         let factor = ui.input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y * 0.004).exp());
         if factor != 1.0 {
             let under = centre + (cursor - panel.center()) / zoom;
