@@ -33,6 +33,8 @@ mod scenes;
 mod screenshots;
 #[path = "common/skip.rs"]
 mod skip;
+#[path = "ui/study.rs"]
+mod study;
 #[path = "ui/surfaces.rs"]
 mod surfaces;
 #[path = "ui/surroundings.rs"]

@@ -20,6 +20,9 @@ use eframe::egui::{
 /// Height of a line of the caption, which covers the foot of the picture.
 const LINE: f32 = 15.0;
 
+/// Height of the caption: two lines, and the bar of the share.
+const CAPTION: f32 = 2.0 * LINE + 4.0;
+
 /// The size of a cell: as wide as chosen, with the film's shape.
 pub fn size(state: &State) -> Vec2 {
     let width = state.prefs.cell;
@@ -96,7 +99,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
             (_, None) => None,
         };
         paint(ui, state, &content, rect, texture);
-        caption(ui, state, &content, rect.with_min_y(rect.bottom() - 2.0 * LINE));
+        caption(ui, state, &content, rect.with_min_y(rect.bottom() - CAPTION));
         outline(ui, rect, chosen, &response);
     }
     tooltip(state, live, &content, response);
@@ -130,7 +133,7 @@ fn paint(ui: &Ui, state: &State, content: &Content, picture: Rect, texture: Opti
     };
     if let Some(words) = words {
         let colour = if faint && texture.is_none() { ui.visuals().text_color() } else { Color32::from_gray(0xd0) };
-        let place = Rect::from_min_max(pos2(picture.left() + 5.0, picture.top() + 23.0), picture.max - vec2(5.0, 2.0 * LINE));
+        let place = Rect::from_min_max(pos2(picture.left() + 5.0, picture.top() + 23.0), picture.max - vec2(5.0, CAPTION));
         wrapped_text(painter, place, words, FontId::proportional(11.0), colour);
     }
 }
@@ -150,12 +153,13 @@ fn wrapped_text(painter: &Painter, place: Rect, words: String, font: FontId, col
 fn caption(ui: &Ui, state: &State, content: &Content, rect: Rect) {
     let painter = ui.painter();
     painter.rect_filled(rect, CornerRadius { nw: 0, ne: 0, sw: 5, se: 5 }, Color32::from_black_alpha(0xb8));
-    let (top, bottom) = rect.shrink2(vec2(5.0, 1.0)).split_top_bottom_at_fraction(0.5);
+    let (top, bottom) = rect.with_max_y(rect.bottom() - 4.0).shrink2(vec2(5.0, 1.0)).split_top_bottom_at_fraction(0.5);
     let weak = Color32::from_gray(0xb4);
     let colour = if content.hidden || content.removed() { weak } else { Color32::from_gray(0xf0) };
     cell_text(painter, top, &role_name(content.strategy, state.prefs.lang), FontId::proportional(11.5), colour);
     let taken = cell_text(painter, bottom, &pair(content.strategy), FontId::proportional(11.0), weak);
-    if matches!(content.verdict, Verdict::Lit | Verdict::Dim(_)) {
+    let lit = matches!(content.verdict, Verdict::Lit | Verdict::Dim(_));
+    if lit {
         let rest = bottom.with_min_x(bottom.left() + taken + 4.0);
         aligned_text(painter, rest, Align2::RIGHT_CENTER, content.share(), FontId::proportional(11.5), colour);
         // The share as a bar, along the lower edge.

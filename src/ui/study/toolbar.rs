@@ -96,7 +96,10 @@ fn legend(ui: &mut Ui, state: &State, whose: &str, found: Option<Scale>) -> Opti
     let kind = state.say(if scale.log { StudyText::LogScale } else { StudyText::LinearScale });
     let middle = format::short(f64::from(scale.value(0.5)));
     let response = response.on_hover_text(format!("{}\n{spoken}, {kind} ({low} · {middle} · {high})", state.say(StudyText::HelpScale)));
-    ui.label(RichText::new(format!("{high} {unit}")).monospace());
+    ui.label(RichText::new(high).monospace());
+    if !unit.is_empty() {
+        ui.label(RichText::new(unit).weak());
+    }
     Some(response)
 }
 
