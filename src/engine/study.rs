@@ -209,12 +209,16 @@ impl<'a> Look<'a> {
     }
 }
 
-/// The values of a picture: colours of the modes that have some, else numbers.
+/// The values of a picture: colours of the modes that have some, else numbers. All of them are finite, or there is none.
 fn values(mode: Mode, quotients: impl Iterator<Item = Quotient>) -> Values {
     if mode.is_colour() {
-        let colour = |q: Quotient| q.value().map_or(Vec3::ZERO, |v| Vec3::from_array(v.map(|x| x as f32)));
+        let colour = |q: Quotient| q.value().map_or(Vec3::ZERO, |v| Vec3::from_array(v.map(f32_of)));
         Values::Colour(quotients.map(colour).collect())
     } else {
-        Values::Scalar(quotients.map(|q| q.value().map_or(f32::NAN, |v| v[0] as f32)).collect())
+        Values::Scalar(quotients.map(|q| q.value().map_or(f32::NAN, |v| f32_of(v[0]))).collect())
     }
+}
+
+fn f32_of(x: f64) -> f32 {
+    (x as f32).min(f32::MAX)
 }

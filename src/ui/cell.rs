@@ -16,6 +16,7 @@ use eframe::egui::{
     self, Align, Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui, Vec2,
     WidgetInfo, pos2, vec2,
 };
+use std::sync::Arc;
 
 /// Height of a line of the caption, which covers the foot of the picture.
 const LINE: f32 = 15.0;
@@ -40,7 +41,7 @@ struct Content {
 }
 
 impl Content {
-    fn of(state: &State, live: &Live, study: Option<&Study>, strategy: Strategy) -> Self {
+    fn of(state: &State, live: &Live, study: Option<&Arc<Study>>, strategy: Strategy) -> Self {
         let counted = study.and_then(|study| study.cell(strategy)?.share);
         let thumbnail = live.frame().and_then(|frame| frame.thumbnails.iter().find(|x| x.strategy == strategy));
         let share = match state.study.mode {
@@ -82,7 +83,7 @@ impl Content {
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures, strategy: Strategy) {
     let (rect, response) = ui.allocate_exact_size(size(state), Sense::click());
     let study = study::current(state, live);
-    let content = Content::of(state, live, study.as_deref(), strategy);
+    let content = Content::of(state, live, study, strategy);
     let chosen = state.selection.strategy == strategy;
     let spoken = spoken(state, &content);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &spoken));
@@ -92,7 +93,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
         state.study.why |= matches!(content.verdict, Verdict::Nothing | Verdict::Black(..) | Verdict::Outweighed | Verdict::Dim(_));
     }
     if ui.is_rect_visible(rect) {
-        let texture = match (state.study.mode, &study) {
+        let texture = match (state.study.mode, study) {
             _ if !matches!(content.verdict, Verdict::Lit | Verdict::Dim(_)) => None,
             (Mode::Weighted, _) => live.frame().and_then(|frame| pictures.texture(state, frame, live.frame_number(), Some(strategy))),
             (_, Some(study)) => study.cell(strategy).and_then(|cell| pictures.cells.texture(ui.ctx(), state, study, cell)),

@@ -8,7 +8,7 @@ use super::text::{Text, fill};
 use super::wake::Wake;
 use crate::bdpt::record::StrategyRecord;
 use crate::bdpt::{Existence, PathRecord};
-use crate::engine::{self, Engine, Frame, Job, Study};
+use crate::engine::{self, Engine, Frame, Job, Mode, Study};
 use crate::scene::{Lens, Scene, builtin};
 use std::sync::Arc;
 use std::time::Duration;
@@ -56,6 +56,7 @@ pub struct Live {
     lost: Vec<String>,
     frame: Option<Arc<Frame>>,
     frame_number: u64,
+    study: Option<Arc<Study>>,
     record: Option<(RecordKey, Result<Arc<PathRecord>, String>)>,
     records_made: u64,
     /// The sentences about the settings and the scene refused last; they go when others are accepted.
@@ -79,6 +80,7 @@ impl Live {
             lost: Vec::new(),
             frame: None,
             frame_number: 0,
+            study: None,
             record: None,
             records_made: 0,
             refused: None,
@@ -116,8 +118,8 @@ impl Live {
             if engine.paused() != state.paused {
                 engine.set_paused(state.paused);
             }
-            engine.set_wish(study::wish(state, self.frame.as_deref()));
         }
+        self.sync_study(state);
         let new_record = self.sync_record(state);
         loaded || restarted || new_frame || new_record
     }
@@ -173,8 +175,8 @@ impl Live {
     }
 
     /// What was counted about the strategies of the current rendering, as far as it was wished for.
-    pub fn study(&self) -> Option<Arc<Study>> {
-        self.engine.as_ref()?.study()
+    pub fn study(&self) -> Option<&Arc<Study>> {
+        self.study.as_ref()
     }
 
     /// Counts frames, so that a picture knows whether it is out of date.
@@ -343,6 +345,14 @@ impl Live {
         self.frame = Some(frame);
         self.frame_number += 1;
         true
+    }
+
+    fn sync_study(&mut self, state: &State) {
+        let Some(engine) = &mut self.engine else { return };
+        engine.set_wish(study::wish(state, self.frame.as_deref()));
+        // Until the first look after a restart the old pictures stay.
+        let old = self.study.take().filter(|old| old.mode == state.study.mode && old.mode != Mode::Weighted);
+        self.study = engine.study().or(old);
     }
 
     fn sync_record(&mut self, state: &State) -> bool {
