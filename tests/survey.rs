@@ -257,3 +257,33 @@ fn pictures_come_when_they_are_asked_for() {
     engine.set_paused(true);
     look(&engine, Source::Strategy(Strategy::new(2, 1), Mode::Weighted));
 }
+
+/// What a survey costs, in processor time, beside the renderer: figures to read.
+#[test]
+#[ignore = "a measurement"]
+fn what_a_survey_costs() {
+    let job = Job { size: [512, 512], ..Job::new(Arc::new(builtin::open("cornell").unwrap())) };
+    let time = |what: &str, work: &mut dyn FnMut()| {
+        let start = cpu_time::ThreadTime::now();
+        work();
+        println!("{what}: {:.0} ms", start.elapsed().as_secs_f64() * 1e3);
+    };
+    let mut survey = None;
+    time("two passes with sums", &mut || survey = Some(surveyed(&job, 0..2, Some(1 << 30))));
+    time("two passes, outcomes alone", &mut || drop(surveyed(&job, 0..2, None)));
+    let survey = survey.unwrap();
+    let all = || (0..survey.strategies().len()).flat_map(|n| pixels(job.size).map(move |pixel| (n, pixel)));
+    let mut sum = 0.0;
+    time("a look at all cells", &mut || {
+        sum = all().filter_map(|(n, pixel)| survey.quotient(Mode::Variance, n, pixel).value()).map(|v| v[0]).sum();
+    });
+    assert!(sum > 0.0);
+    let context = job.view();
+    let context = Context::new(&job.scene, &context, &job.settings);
+    time("the outcomes of a pixel's 256 samples", &mut || drop(pixel_outcomes(&context, &plan(&job), [256, 256], 256)));
+    let mut session = Session::new(job.clone()).unwrap();
+    while session.passes() < 2 {
+        session.step(Duration::from_secs(1));
+    }
+    println!("two passes of the renderer, all threads together: {:.0} ms", session.stats().cpu_seconds * 1e3);
+}

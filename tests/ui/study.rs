@@ -181,3 +181,23 @@ fn modes_to_look_at() {
         }
     }
 }
+
+/// The question that the card answers at a glance; `BDPT_SHOT` is a part of the wanted names.
+#[test]
+#[ignore = "pictures to look at: set BDPT_SCREENSHOT_DIR"]
+fn answers_to_look_at() {
+    let wanted = std::env::var("BDPT_SHOT").unwrap_or_default();
+    for (name, strategy) in [("indirect", Strategy::new(1, 2)), ("glass-caustic", Strategy::new(1, 2)), ("bokeh", Strategy::new(6, 0))] {
+        let file = format!("answer-{name}");
+        if !file.contains(&wanted) {
+            continue;
+        }
+        let scene = Arc::new(builtin::open(name).expect("a built-in scene opens"));
+        let mut window = screenshots::drawn(scene, [1280.0, 800.0]);
+        let state = window.state_mut().state_mut();
+        (state.study.why, state.prefs.dark, state.prefs.space_open) = (true, false, false);
+        state.select_strategy(strategy);
+        until(&mut window, "an answer", |app| app.live().study().is_some_and(|study| study.pixel.is_some() && study.spp >= 8.0));
+        screenshots::picture(&mut window, &file);
+    }
+}

@@ -48,8 +48,8 @@ pub fn progress(ui: &mut Ui, state: &State, live: &Live) {
     if !state.study.mode.is_colour() {
         let selected = study.cell(state.selection.strategy);
         let found = match state.prefs.gain {
-            Gain::Same => study.cells.iter().find_map(|cell| scale(state, &study, cell)),
-            Gain::Each => selected.and_then(|cell| scale(state, &study, cell)),
+            Gain::Same => study.cells.iter().find_map(|cell| scale(state, study, cell)),
+            Gain::Each => selected.and_then(|cell| scale(state, study, cell)),
         };
         let whose = match state.prefs.gain {
             Gain::Same => state.say(StudyText::ScaleShared).to_owned(),
