@@ -141,7 +141,8 @@ fn paint(ui: &Ui, state: &State, content: &Content, picture: Rect, texture: Opti
 
 /// Words in the middle of a place, in as many lines as fit.
 fn wrapped_text(painter: &Painter, place: Rect, words: String, font: FontId, colour: Color32) {
-    let rows = (place.height() / (font.size + 2.5)).floor().max(1.0) as usize;
+    // A line may reach into the margins.
+    let rows = ((place.height() + 5.0) / (font.size + 2.5)).floor().max(1.0) as usize;
     let mut job = LayoutJob::simple(words, font, colour, place.width());
     job.halign = Align::Center;
     job.wrap.max_rows = rows;

@@ -10,7 +10,7 @@ fn cell(window: &Harness<'static, App>, name: &str) -> String {
     let starts = |label: &String| label.starts_with(&format!("{name}: "));
     let labels = window.query_all_by_role(Role::Button).filter_map(|node| node.accesskit_node().label());
     // The inspector's row of that name comes before it.
-    labels.filter(starts).last().expect("a cell")
+    labels.filter(starts).next_back().expect("a cell")
 }
 
 fn mode(window: &Harness<'static, App>) -> Mode {
