@@ -8,9 +8,9 @@ use bdpt_explorer::ui::text::StudyText;
 /// What a strategy's cell is called.
 fn cell(window: &Harness<'static, App>, name: &str) -> String {
     let starts = |label: &String| label.starts_with(&format!("{name}: "));
-    let labels = window.query_all_by_role(Role::Button).filter_map(|node| node.accesskit_node().label());
+    let mut labels = window.query_all_by_role(Role::Button).filter_map(|node| node.accesskit_node().label());
     // The inspector's row of that name comes before it.
-    labels.filter(starts).next_back().expect("a cell")
+    labels.rfind(starts).expect("a cell")
 }
 
 fn mode(window: &Harness<'static, App>) -> Mode {
