@@ -19,7 +19,7 @@ const BAR: egui::Vec2 = vec2(120.0, 12.0);
 /// What the cells show, and why.
 pub fn choice(ui: &mut Ui, state: &mut State) {
     keep_together(ui, 230.0);
-    let label = ui.label(state.say(StudyText::Mode));
+    let label = ui.label(state.say(StudyText::Mode)).on_hover_text(state.say(StudyText::HelpMode));
     let lang = state.prefs.lang;
     let selected = mode_texts(state.study.mode)[0].in_language(lang);
     let response = ComboBox::from_id_salt("mode").selected_text(selected).width(118.0).show_ui(ui, |ui| {
