@@ -49,6 +49,8 @@ mod screenshots;
 mod skip;
 #[path = "ui/space.rs"]
 mod space;
+#[path = "ui/study.rs"]
+mod study;
 #[path = "ui/surfaces.rs"]
 mod surfaces;
 #[path = "ui/surroundings.rs"]

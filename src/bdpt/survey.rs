@@ -129,8 +129,8 @@ impl Tally {
     }
 }
 
-/// Rec. 709 luminance.
-fn luminance([r, g, b]: [f64; 3]) -> f64 {
+/// Rec. 709 luminance; of a number that is the same in all channels, itself.
+pub fn luminance([r, g, b]: [f64; 3]) -> f64 {
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 
@@ -171,6 +171,7 @@ pub struct Survey {
     /// [strategy][block]; empty if only outcomes are counted.
     tallies: Vec<Tally>,
     row_samples: Vec<u32>,
+    rows_done: u64,
     traced: Sample,
 }
 
@@ -195,6 +196,7 @@ impl Survey {
             block,
             tallies: vec![Tally::default(); count],
             row_samples: vec![0; size[1] as usize],
+            rows_done: 0,
             traced: Sample::default(),
         }
     }
@@ -205,6 +207,7 @@ impl Survey {
             self.add(context, SampleId { x, y, sample: pass, seed: context.settings.seed });
         }
         self.row_samples[y as usize] += 1;
+        self.rows_done += 1;
     }
 
     fn add(&mut self, context: &Context, id: SampleId) {
@@ -242,7 +245,7 @@ impl Survey {
 
     /// Samples per pixel, averaged over the rows: whole after every complete pass.
     pub fn passes(&self) -> f64 {
-        self.row_samples.iter().map(|&n| f64::from(n)).sum::<f64>() / self.row_samples.len().max(1) as f64
+        self.rows_done as f64 / self.row_samples.len().max(1) as f64
     }
 
     /// The sums of a strategy where a pixel is; `None` if none are kept.

@@ -112,9 +112,14 @@ fn student_975(free: u32) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{Job, Session};
     use super::*;
+    use crate::bdpt::Settings;
     use crate::rng::SampleId;
+    use crate::scene::builtin;
     use statrs::distribution::{ContinuousCDF, StudentsT};
+    use std::sync::Arc;
+    use std::time::Duration;
 
     #[test]
     fn quantiles_are_those_of_students_t() {
@@ -159,6 +164,37 @@ mod tests {
             assert!((share - 0.95).abs() < limit, "{passes} passes: {share}");
             assert!((covered(narrower) - 0.95).abs() > limit, "{passes} passes: the control passes");
         }
+    }
+
+    /// The same of real pixels: the furnace's radiance is known, L_e (1 − ρ⁶)/(1 − ρ). Pixels of an image share splats, and a
+    /// pass is not normal: 1 % either way is allowed for that. The control: an interval of half the width.
+    #[test]
+    fn the_intervals_of_a_rendering_cover_the_known_radiance() {
+        let scene = Arc::new(builtin::open("furnace").unwrap_or_else(|error| panic!("{error}")));
+        let (l_e, rho) = (0.25, 0.5f32);
+        let exact = l_e * (1.0 - rho.powi(6)) / (1.0 - rho);
+        let (mut covered, mut control, mut all) = (0, 0, 0);
+        for seed in 0..24 {
+            let settings = Settings { seed, ..Settings::default() };
+            let mut session = Session::new(Job { size: [24, 24], settings, ..Job::new(scene.clone()) }).unwrap_or_else(|e| panic!("{e}"));
+            let mut batches = Batches::new(StrategySet::NONE);
+            while session.passes() < 64 {
+                session.step(Duration::from_secs(1));
+                if batches.is_due(session.passes()) {
+                    batches.end(session.passes(), &session.image());
+                }
+            }
+            let found = batches.intervals().unwrap_or_else(|| panic!("enough"));
+            for (mean, half) in session.image().iter().zip(&found.half) {
+                let off = (mean.x - exact).abs();
+                covered += u32::from(off <= half.x);
+                control += u32::from(off <= 0.5 * half.x);
+                all += 1;
+            }
+        }
+        let share = |count: u32| f64::from(count) / f64::from(all);
+        assert!((share(covered) - 0.95).abs() < 0.01, "{}", share(covered));
+        assert!((share(control) - 0.95).abs() > 0.01, "half the width is too narrow: {}", share(control));
     }
 
     #[test]

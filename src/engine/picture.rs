@@ -25,7 +25,7 @@ pub enum Source {
 
 impl Source {
     /// Is it made from the film (else from the survey)?
-    pub(super) fn from_film(self) -> bool {
+    pub(super) fn is_of_film(self) -> bool {
         matches!(self, Self::Image | Self::Strategy(_, Mode::Weighted))
     }
 }
@@ -95,10 +95,10 @@ impl Gallery {
     }
 
     /// What is still looked at, of those from the film or of those from the survey; what is not is forgotten.
-    pub fn wanted(&self, from_film: bool) -> Vec<Source> {
+    pub fn wanted(&self, of_film: bool) -> Vec<Source> {
         let mut entries = self.entries();
         entries.retain(|_, entry| entry.asked.elapsed() < PATIENCE);
-        entries.keys().filter(|source| source.from_film() == from_film).copied().collect()
+        entries.keys().filter(|source| source.is_of_film() == of_film).copied().collect()
     }
 
     /// Hangs a picture where it was asked for.

@@ -2,9 +2,8 @@
 
 use super::picture::{Mode, Picture, Source, Values, range};
 use crate::bdpt::Strategy;
-use crate::bdpt::survey::{Outcomes, Quotient, Survey};
+use crate::bdpt::survey::{Outcomes, Quotient, Survey, luminance};
 use crate::math::Vec3;
-use rayon::prelude::*;
 
 /// Longest side of a cell's picture, pixels.
 const CELL_SIDE: u32 = 96;
@@ -115,7 +114,7 @@ impl<'a> Look<'a> {
 
     /// What the survey says, with pictures of a mode.
     pub fn study(&self, mode: Mode, pixel: Option<PixelStudy>) -> Study {
-        let cells: Vec<CellStudy> = (0..self.survey.strategies().len()).into_par_iter().map(|number| self.cell(mode, number)).collect();
+        let cells: Vec<CellStudy> = (0..self.survey.strategies().len()).map(|number| self.cell(mode, number)).collect();
         let finite = |cell: &CellStudy| cell.range.into_iter().flatten().collect::<Vec<_>>();
         let range = range(&cells.iter().flat_map(finite).collect::<Vec<_>>());
         let pixel = pixel.map(|pixel| PixelStudy { landed: self.landed(pixel.pixel), ..pixel });
@@ -141,10 +140,10 @@ impl<'a> Look<'a> {
                 *sum = sum.plus(self.quotient(mode, number, [x, y]));
             }
         }
-        let whole = sums.iter().copied().fold(Quotient::default(), Quotient::plus);
+        let whole = sums.iter().copied().fold(Quotient::default(), Quotient::plus).value();
         let values = values(mode, sums.into_iter());
         let range = values.range();
-        CellStudy { strategy, outcomes, size, values, range, share: whole.value().map(|value| value[0]) }
+        CellStudy { strategy, outcomes, size, values, range, share: whole.map(luminance) }
     }
 
     /// What a mode shows of a strategy at a pixel, or at the nearest that has a sample.
@@ -156,13 +155,6 @@ impl<'a> Look<'a> {
 
     /// Turns the cells' means over the film into what is said about them.
     fn set_shares(&self, study: &mut Study) {
-        let mean = |mode: Mode, number: usize| {
-            let sums = (0..self.size[1]).into_par_iter().map(|y| {
-                let row = (0..self.size[0]).map(|x| self.quotient(mode, number, [x, y]));
-                row.fold(Quotient::default(), Quotient::plus)
-            });
-            sums.reduce(Quotient::default, Quotient::plus).value().map_or([0.0; 3], |value| value)
-        };
         match study.mode {
             Mode::Weighted | Mode::Weight => {}
             Mode::Count => {
@@ -172,10 +164,9 @@ impl<'a> Look<'a> {
                 }
             }
             Mode::Raw => {
-                let image: f64 = (0..study.cells.len()).map(|number| mean(Mode::Weighted, number)[0]).sum();
-                for (number, cell) in study.cells.iter_mut().enumerate() {
-                    let [r, g, b] = mean(Mode::Raw, number);
-                    cell.share = (image > 0.0).then(|| (0.2126 * r + 0.7152 * g + 0.0722 * b) / image);
+                let image: f64 = (0..study.cells.len()).map(|number| self.mean(Mode::Weighted, number)).sum();
+                for cell in &mut study.cells {
+                    cell.share = cell.share.filter(|_| image > 0.0).map(|mean| mean / image);
                 }
             }
             Mode::Variance => {
@@ -185,6 +176,13 @@ impl<'a> Look<'a> {
                 }
             }
         }
+    }
+
+    /// A mode's mean over the film.
+    fn mean(&self, mode: Mode, number: usize) -> f64 {
+        let pixels = (0..self.size[1]).flat_map(|y| (0..self.size[0]).map(move |x| [x, y]));
+        let sum = pixels.map(|pixel| self.quotient(mode, number, pixel)).fold(Quotient::default(), Quotient::plus);
+        sum.value().map_or(0.0, luminance)
     }
 
     fn landed(&self, pixel: [u32; 2]) -> Vec<(Strategy, Landed)> {
@@ -209,12 +207,16 @@ impl<'a> Look<'a> {
     }
 }
 
-/// The values of a picture: colours of the modes that have some, else numbers.
+/// The values of a picture: colours of the modes that have some, else numbers. All of them are finite, or there is none.
 fn values(mode: Mode, quotients: impl Iterator<Item = Quotient>) -> Values {
     if mode.is_colour() {
-        let colour = |q: Quotient| q.value().map_or(Vec3::ZERO, |v| Vec3::from_array(v.map(|x| x as f32)));
+        let colour = |q: Quotient| q.value().map_or(Vec3::ZERO, |v| Vec3::from_array(v.map(f32_of)));
         Values::Colour(quotients.map(colour).collect())
     } else {
-        Values::Scalar(quotients.map(|q| q.value().map_or(f32::NAN, |v| v[0] as f32)).collect())
+        Values::Scalar(quotients.map(|q| q.value().map_or(f32::NAN, |v| f32_of(v[0]))).collect())
     }
+}
+
+fn f32_of(x: f64) -> f32 {
+    (x as f32).min(f32::MAX)
 }

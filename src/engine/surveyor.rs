@@ -192,7 +192,7 @@ impl Worker {
                 let began = Instant::now();
                 self.publish();
                 // A look costs time, too: at most a fifth of it.
-                next_look = Instant::now() + (began.elapsed() * 4).clamp(Duration::from_millis(100), Duration::from_secs(2));
+                next_look = Instant::now() + (began.elapsed() * 4).clamp(Duration::from_millis(100), Duration::from_secs(10));
             }
         }
     }

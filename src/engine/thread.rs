@@ -215,6 +215,9 @@ impl Worker {
             }
             // The first look at something new should not be empty, and a restart has seen to that.
             if !self.paused && !restarted {
+                // A batch that is due ends with this pass.
+                let next = self.session.passes().saturating_add(1);
+                self.session.set_limit(if self.batches.is_due(next) { next } else { u32::MAX });
                 self.session.step(SLICE);
             }
             self.end_batch();

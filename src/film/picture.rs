@@ -104,7 +104,7 @@ impl Picture {
             .collect_pixels(
                 move |_, _| picture.clone(),
                 move |picture, Size(x, y), (r, g, b): (f32, f32, f32)| {
-                    picture.put([x as i64 + i64::from(corner.0), y as i64 + i64::from(corner.1)], Vec3::new(r, g, b))
+                    picture.put([x as i64 + i64::from(corner.0), y as i64 + i64::from(corner.1)], Vec3::new(r, g, b));
                 },
             )
             .first_valid_layer()

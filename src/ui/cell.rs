@@ -16,9 +16,13 @@ use eframe::egui::{
     self, Align, Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui, Vec2,
     WidgetInfo, pos2, vec2,
 };
+use std::sync::Arc;
 
 /// Height of a line of the caption, which covers the foot of the picture.
 const LINE: f32 = 15.0;
+
+/// Height of the caption: two lines, and the bar of the share.
+const CAPTION: f32 = 2.0 * LINE + 4.0;
 
 /// The size of a cell: as wide as chosen, with the film's shape.
 pub fn size(state: &State) -> Vec2 {
@@ -37,7 +41,7 @@ struct Content {
 }
 
 impl Content {
-    fn of(state: &State, live: &Live, study: Option<&Study>, strategy: Strategy) -> Self {
+    fn of(state: &State, live: &Live, study: Option<&Arc<Study>>, strategy: Strategy) -> Self {
         let counted = study.and_then(|study| study.cell(strategy)?.share);
         let thumbnail = live.frame().and_then(|frame| frame.thumbnails.iter().find(|x| x.strategy == strategy));
         let share = match state.study.mode {
@@ -79,7 +83,7 @@ impl Content {
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures, strategy: Strategy) {
     let (rect, response) = ui.allocate_exact_size(size(state), Sense::click());
     let study = study::current(state, live);
-    let content = Content::of(state, live, study.as_deref(), strategy);
+    let content = Content::of(state, live, study, strategy);
     let chosen = state.selection.strategy == strategy;
     let spoken = spoken(state, &content);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &spoken));
@@ -93,14 +97,14 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
         state.open_large(strategy, state.study.mode);
     }
     if ui.is_rect_visible(rect) {
-        let texture = match (state.study.mode, &study) {
+        let texture = match (state.study.mode, study) {
             _ if !matches!(content.verdict, Verdict::Lit | Verdict::Dim(_)) => None,
             (Mode::Weighted, _) => live.frame().and_then(|frame| pictures.texture(state, frame, live.frame_number(), strategy)),
             (_, Some(study)) => study.cell(strategy).and_then(|cell| pictures.cells.texture(ui.ctx(), state, study, cell)),
             (_, None) => None,
         };
         paint(ui, state, &content, rect, texture);
-        caption(ui, state, &content, rect.with_min_y(rect.bottom() - 2.0 * LINE));
+        caption(ui, state, &content, rect.with_min_y(rect.bottom() - CAPTION));
         outline(ui, rect, chosen, &response);
     }
     tooltip(state, live, &content, response);
@@ -134,14 +138,15 @@ fn paint(ui: &Ui, state: &State, content: &Content, picture: Rect, texture: Opti
     };
     if let Some(words) = words {
         let colour = if faint && texture.is_none() { ui.visuals().text_color() } else { Color32::from_gray(0xd0) };
-        let place = Rect::from_min_max(pos2(picture.left() + 5.0, picture.top() + 23.0), picture.max - vec2(5.0, 2.0 * LINE));
+        let place = Rect::from_min_max(pos2(picture.left() + 5.0, picture.top() + 23.0), picture.max - vec2(5.0, CAPTION));
         wrapped_text(painter, place, words, FontId::proportional(11.0), colour);
     }
 }
 
 /// Words in the middle of a place, in as many lines as fit.
 fn wrapped_text(painter: &Painter, place: Rect, words: String, font: FontId, colour: Color32) {
-    let rows = (place.height() / (font.size + 2.5)).floor().max(1.0) as usize;
+    // A line may reach into the margins.
+    let rows = ((place.height() + 5.0) / (font.size + 2.5)).floor().max(1.0) as usize;
     let mut job = LayoutJob::simple(words, font, colour, place.width());
     job.halign = Align::Center;
     job.wrap.max_rows = rows;
@@ -154,12 +159,13 @@ fn wrapped_text(painter: &Painter, place: Rect, words: String, font: FontId, col
 fn caption(ui: &Ui, state: &State, content: &Content, rect: Rect) {
     let painter = ui.painter();
     painter.rect_filled(rect, CornerRadius { nw: 0, ne: 0, sw: 5, se: 5 }, Color32::from_black_alpha(0xb8));
-    let (top, bottom) = rect.shrink2(vec2(5.0, 1.0)).split_top_bottom_at_fraction(0.5);
+    let (top, bottom) = rect.with_max_y(rect.bottom() - 4.0).shrink2(vec2(5.0, 1.0)).split_top_bottom_at_fraction(0.5);
     let weak = Color32::from_gray(0xb4);
     let colour = if content.hidden || content.removed() { weak } else { Color32::from_gray(0xf0) };
     cell_text(painter, top, &role_name(content.strategy, state.prefs.lang), FontId::proportional(11.5), colour);
     let taken = cell_text(painter, bottom, &pair(content.strategy), FontId::proportional(11.0), weak);
-    if matches!(content.verdict, Verdict::Lit | Verdict::Dim(_)) {
+    let lit = matches!(content.verdict, Verdict::Lit | Verdict::Dim(_));
+    if lit {
         let rest = bottom.with_min_x(bottom.left() + taken + 4.0);
         aligned_text(painter, rest, Align2::RIGHT_CENTER, content.share(), FontId::proportional(11.5), colour);
         // The share as a bar, along the lower edge.

@@ -15,7 +15,7 @@ use super::text::Text;
 use super::wake::Wake;
 use crate::bdpt::record::StrategyRecord;
 use crate::bdpt::{Existence, PathRecord};
-use crate::engine::{self, Engine, Frame, Job, Study};
+use crate::engine::{self, Engine, Frame, Job, Mode, Study};
 use crate::scene::{Camera, Lens, Scene};
 use shown::Shown;
 use std::sync::Arc;
@@ -59,6 +59,7 @@ pub struct Live {
     lost: Vec<String>,
     frame: Option<Arc<Frame>>,
     frame_number: u64,
+    study: Option<Arc<Study>>,
     record: Option<(RecordKey, Result<Arc<PathRecord>, String>)>,
     records_made: u64,
     /// The sentences about the settings, the edits and the scene refused last; they go when others are accepted.
@@ -87,6 +88,7 @@ impl Live {
             lost: Vec::new(),
             frame: None,
             frame_number: 0,
+            study: None,
             record: None,
             records_made: 0,
             refused: None,
@@ -132,8 +134,8 @@ impl Live {
             if engine.paused() != paused {
                 engine.set_paused(paused);
             }
-            engine.set_wish(study::wish(state, self.frame.as_deref()));
         }
+        self.sync_study(state);
         let searching = self.engine.as_ref().is_some_and(|engine| inspector::sync_search(state, engine));
         let new_record = self.sync_record(state);
         let record = self.record(state);
@@ -209,8 +211,8 @@ impl Live {
     }
 
     /// What was counted about the strategies of the current rendering, as far as it was wished for.
-    pub fn study(&self) -> Option<Arc<Study>> {
-        self.engine.as_ref()?.study()
+    pub fn study(&self) -> Option<&Arc<Study>> {
+        self.study.as_ref()
     }
 
     /// Counts frames, so that a picture knows whether it is out of date.
@@ -340,6 +342,14 @@ impl Live {
         self.frame = Some(frame);
         self.frame_number += 1;
         true
+    }
+
+    fn sync_study(&mut self, state: &State) {
+        let Some(engine) = &mut self.engine else { return };
+        engine.set_wish(study::wish(state, self.frame.as_deref()));
+        // Until the first look after a restart the old pictures stay.
+        let old = self.study.take().filter(|old| old.mode == state.study.mode && old.mode != Mode::Weighted);
+        self.study = engine.study().or(old);
     }
 
     fn sync_record(&mut self, state: &State) -> bool {

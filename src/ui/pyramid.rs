@@ -39,7 +39,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
     ui.add_space(2.0);
     if state.study.why {
         let room = ui.available_width();
-        let card = Panel::right("why").resizable(true).default_size(WHY.min(0.5 * room));
+        let card = Panel::right("why").resizable(true).default_size(WHY.min(0.45 * room));
         card.size_range(180.0..=(0.7 * room).max(180.0)).show(ui, |ui| study::why::show(ui, state, live));
     }
     let size = cell::size(state);
@@ -182,7 +182,7 @@ fn row_share(state: &State, live: &Live, edges: u32) -> Option<(Option<f64>, Str
         }
         Mode::Variance => {
             let study = study::current(state, live);
-            let in_row = |study: Arc<Study>| study.cells.iter().filter(|x| x.strategy.edges() == edges).filter_map(|x| x.share).sum();
+            let in_row = |study: &Arc<Study>| study.cells.iter().filter(|x| x.strategy.edges() == edges).filter_map(|x| x.share).sum();
             let share: Option<f64> = study.map(in_row);
             let words = share.map_or("–".to_owned(), format::percent);
             Some((share, fill(state.say(StudyText::ShareVariance), &[&words])))

@@ -11,6 +11,7 @@ use super::state::{Gain, Maximised, State};
 use super::text::StudyText;
 use crate::engine::{CellStudy, Frame, Mode, Study, Wish};
 use crate::film::scale::Scale;
+use std::sync::Arc;
 
 /// What a person chose about them.
 #[derive(Clone, Debug, Default)]
@@ -52,7 +53,7 @@ pub fn mode_texts(mode: Mode) -> [StudyText; 2] {
 }
 
 /// The study on show, if its cells are already those of the mode that was chosen.
-pub fn current(state: &State, live: &Live) -> Option<std::sync::Arc<Study>> {
+pub fn current<'a>(state: &State, live: &'a Live) -> Option<&'a Arc<Study>> {
     live.study().filter(|study| study.mode == state.study.mode)
 }
 

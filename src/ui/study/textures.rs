@@ -72,15 +72,13 @@ fn develop(state: &State, study: &Study, cell: &CellStudy) -> Option<ColorImage>
     let pixels: Vec<Color32> = match &cell.values {
         Values::Colour(pixels) => {
             let exposure = if state.prefs.gain == Gain::Each { fitting_exposure(pixels) } else { state.exposure };
-            let colour = |radiance| to_srgb8(radiance, exposure, state.tonemap);
-            pixels.iter().map(|&radiance| colour(radiance)).map(|[r, g, b]| Color32::from_rgb(r, g, b)).collect()
+            pixels.iter().map(|&radiance| rgb(to_srgb8(radiance, exposure, state.tonemap))).collect()
         }
         Values::Scalar(values) => {
             let scale = scale(state, study, cell);
             // Where there is no number, the ground is seen.
-            let place = |value: f32| if value.is_finite() { Some(scale.and_then(|scale| scale.place(value)).unwrap_or(0.0)) } else { None };
-            let colour = |place: f32| viridis(place).into();
-            values.iter().map(|&value| place(value).map_or(Color32::TRANSPARENT, |p| rgb(colour(p)))).collect()
+            let place = |value: f32| value.is_finite().then(|| scale.and_then(|scale| scale.place(value)).unwrap_or(0.0));
+            values.iter().map(|&value| place(value).map_or(Color32::TRANSPARENT, |place| rgb(viridis(place)))).collect()
         }
     };
     (!pixels.is_empty()).then(|| ColorImage::new(cell.size.map(|n| n as usize), pixels))

@@ -19,7 +19,7 @@ const BAR: egui::Vec2 = vec2(120.0, 12.0);
 /// What the cells show, and why.
 pub fn choice(ui: &mut Ui, state: &mut State) {
     keep_together(ui, 230.0);
-    let label = ui.label(state.say(StudyText::Mode));
+    let label = ui.label(state.say(StudyText::Mode)).on_hover_text(state.say(StudyText::HelpMode));
     let lang = state.prefs.lang;
     let selected = mode_texts(state.study.mode)[0].in_language(lang);
     let response = ComboBox::from_id_salt("mode").selected_text(selected).width(118.0).show_ui(ui, |ui| {
@@ -48,8 +48,8 @@ pub fn progress(ui: &mut Ui, state: &State, live: &Live) {
     if !state.study.mode.is_colour() {
         let selected = study.cell(state.selection.strategy);
         let found = match state.prefs.gain {
-            Gain::Same => study.cells.iter().find_map(|cell| scale(state, &study, cell)),
-            Gain::Each => selected.and_then(|cell| scale(state, &study, cell)),
+            Gain::Same => study.cells.iter().find_map(|cell| scale(state, study, cell)),
+            Gain::Each => selected.and_then(|cell| scale(state, study, cell)),
         };
         let whose = match state.prefs.gain {
             Gain::Same => state.say(StudyText::ScaleShared).to_owned(),
@@ -96,7 +96,10 @@ fn legend(ui: &mut Ui, state: &State, whose: &str, found: Option<Scale>) -> Opti
     let kind = state.say(if scale.log { StudyText::LogScale } else { StudyText::LinearScale });
     let middle = format::short(f64::from(scale.value(0.5)));
     let response = response.on_hover_text(format!("{}\n{spoken}, {kind} ({low} · {middle} · {high})", state.say(StudyText::HelpScale)));
-    ui.label(RichText::new(format!("{high} {unit}")).monospace());
+    ui.label(RichText::new(high).monospace());
+    if !unit.is_empty() {
+        ui.label(RichText::new(unit).weak());
+    }
     Some(response)
 }
 

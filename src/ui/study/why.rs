@@ -30,7 +30,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
             ui.label(RichText::new(fill(state.say(Text::AbsentHere), &[absence_text(absence, state.prefs.lang)])).strong());
             return;
         }
-        let study = live.study();
+        let study = live.study().filter(|study| live.engine().is_some_and(|engine| engine.generation() == study.generation));
         let pixel = study.as_ref().and_then(|study| study.pixel.as_ref()).filter(|pixel| pixel.pixel == state.selection.pixel);
         let Some(verdict) = whole(ui, state, live, strategy) else { return };
         let spp = study.as_ref().map_or(0.0, |study| study.spp);
@@ -153,6 +153,7 @@ fn table(ui: &mut Ui, state: &State, outcomes: [Option<&Outcomes>; 2], spp: f64)
     rows.extend(reasons.into_iter().take(MOST_REASONS).map(|(reason, shares)| (reason_short(reason, lang), shares, theme::bar(&visuals))));
 
     ui.add_space(2.0);
+    ui.spacing_mut().interact_size.y = 15.0;
     egui::Grid::new("outcomes").num_columns(3).spacing(vec2(10.0, 3.0)).show(ui, |ui| {
         let weak = |text: StudyText| RichText::new(state.say(text)).small().weak();
         ui.label(weak(StudyText::HeadOutcome));

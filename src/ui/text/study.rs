@@ -31,7 +31,6 @@ texts! { StudyText;
     WaitingForCount: "counting …", "正在统计……";
     Why: "Why?", "为什么？";
     HelpWhy: "Why the selected strategy is black or bright: at this sample, at this pixel, in the image", "所选策略为何是黑的或亮的：就此采样、此像素、整幅图像";
-    Close: "Close", "关闭";
     CellReason: "{} {}", "{} {}";
     CellOutweighed: "weight 0: others take it", "权重为 0：由其他策略承担";
     CellDim: "too dark: +{} EV", "太暗：+{} EV";
