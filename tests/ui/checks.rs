@@ -112,9 +112,10 @@ fn a_failure_says_what_it_means_and_shows_the_worst_case() {
     window.get_by_role_and_label(Role::Button, "Strategies in pairs: failed");
     window.get_by_label("What it means");
     window.get_by_label("Where to look");
-    assert!(
-        window.query_by_label_contains("of the light that").is_some() && window.query_by_label_contains("either may be wrong").is_some()
-    );
+    // Which length fails most depends on how many samples there was time for.
+    for part in ["of the light that", "src/"] {
+        assert!(window.query_all_by_label_contains(part).next().is_some(), "{part}");
+    }
     let place = window.state().live().checks().result(Check::Pairwise).expect("a result").0.findings[0].place.expect("a place");
     click(&mut window, Role::Button, "Show this sample");
     let state = window.state().state();
