@@ -4,7 +4,7 @@
 //! replay       p, f and w of a path, computed by every strategy on its own, agree             (a path at a time, no statistics)
 //! pairwise     E_i[(f/p_i) h] = E_j[(f/p_j) h],  h = p_i p_j/(p_i + p_j)²                      (every length, every pair)
 //! furnace      Σ over paths of k edges = L_e ρ^(k−1)                                          (closed, diffuse, glowing)
-//! integrators  E_BDPT[(f/p) h] = E_PT[…] = E_LT[…],  h = P_PT P_LT/(P_PT + P_LT)²              (block by block)
+//! integrators  E_BDPT[(f/p) h] = E_PT[…] = E_LT[…],  h = P_PT P_LT/((P_PT + P_LT) P)            (block by block)
 //! finite       no contribution is infinite, no number, negative, or too large to count
 //! gpu          both renderers draw the same samples
 //! ```

@@ -41,12 +41,13 @@ fn json_is_for_scripts() {
 
 #[test]
 fn a_failure_is_a_sentence_a_place_to_look_and_status_1() {
-    // A lamp so bright that f32 cannot hold what it adds.
+    // A lamp so bright and so large that f32 cannot hold its power.
     let mut glb = Glb::new("too bright");
-    let (white, lamp) = (glb.material(lambert("white", [0.8; 3])), glb.material(emitter("lamp", [0.0; 3], [1.0; 3], 3e38)));
-    glb.object("floor", &Shape::quad([[-1.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 0.0, -1.0]]), white);
-    glb.object("lamp", &Shape::quad([[-1.0, 1.0, -1.0], [1.0, 1.0, -1.0], [1.0, 1.0, 1.0], [-1.0, 1.0, 1.0]]), lamp);
-    glb.camera("camera", [0.0, 0.5, 2.0], [0.0, -10.0], 0.9);
+    let (white, lamp) = (glb.material(lambert("white", [0.8; 3])), glb.material(emitter("lamp", [0.0; 3], [1.0; 3], 9e29)));
+    let (a, b) = (1e5, -1e5);
+    glb.object("floor", &Shape::quad([[b, 0.0, a], [a, 0.0, a], [a, 0.0, b], [b, 0.0, b]]), white);
+    glb.object("lamp", &Shape::quad([[b, a, b], [a, a, b], [a, a, a], [b, a, a]]), lamp);
+    glb.camera("camera", [0.0, 0.5 * a, 2.0 * a], [0.0, -10.0], 0.9);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("too-bright.glb");
     std::fs::write(&path, glb.bytes()).unwrap();

@@ -84,7 +84,7 @@ fn the_furnace_sees_one_strategy_too_bright() {
         1.0,
         Control { factor: |x| if x == Strategy::new(1, 2) { 1.1 } else { 1.0 }, ..Control::default() },
     );
-    assert!(values(&found[0]).contains("Paths of 2 edges"), "{}", values(&found[0]));
+    assert!(values(&found[0]).contains("Paths with k = 2"), "{}", values(&found[0]));
 }
 
 #[test]

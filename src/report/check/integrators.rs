@@ -1,15 +1,15 @@
 //! BDPT = PT = LT, all over the picture, on the paths that the path tracer and the light tracer both can make.
 //!
 //! ```text
-//! P_PT = Σ_{s ≤ 1} p_s,  P_LT = Σ_{t ≤ 1} p_s,  h = P_PT P_LT/(P_PT + P_LT)²
+//! P_PT = Σ_{s ≤ 1} p_s,  P_LT = Σ_{t ≤ 1} p_s,  P = Σ p_s        h = P_PT P_LT/((P_PT + P_LT) P)
 //! E_BDPT[Σ w (f/p) h] = E_PT[…] = E_LT[…]          each with its own strategies and weights
 //! ```
 //!
 //! As plain means, a path tracer that has not hit a small lamp through glass yet is too dark by far more than its own variance tells.
-//! h keeps every value bounded and is 0 where one of the two cannot sample: what is compared are common paths, and rare ones count
-//! little. All three use the same samples, so their differences are tested as pairs, in blocks of the picture and as a whole.
+//! h keeps every value below f/P, that of all strategies together, and is 0 where one of the two cannot sample: what is compared are
+//! common paths, and rare ones count little. All three use the same samples, so their differences are tested as pairs, in blocks of
+//! the picture and as a whole.
 
-use super::pairwise::harmonic;
 use super::said::{pair, ratio, short};
 use super::stats::{Moments, z_limit};
 use super::sweep::{Merge, Task};
@@ -70,6 +70,12 @@ fn ln_family(path: &FullPath, ln_p: &[f64], family: &StrategySet) -> f64 {
     if largest == f64::NEG_INFINITY { largest } else { largest + members().map(|x| (x - largest).exp()).sum::<f64>().ln() }
 }
 
+/// h, from the logarithms of P_PT, P_LT and P.
+fn common([pt, lt, all]: [f64; 3]) -> f64 {
+    let (smaller, larger) = (pt.min(lt), pt.max(lt));
+    if smaller == f64::NEG_INFINITY { 0.0 } else { (smaller - (smaller - larger).exp().ln_1p() - all).exp() }
+}
+
 /// The check.
 pub fn check(task: &mut Task) -> CheckResult {
     let all = task.settings(MOST_EDGES);
@@ -90,8 +96,8 @@ pub fn check(task: &mut Task) -> CheckResult {
         for strategy in Strategy::all(all.max_edges, lens) {
             let Ok(c) = sample.evaluate(context, strategy) else { continue };
             let ln_p = log_densities(&sample.path);
-            let [pt, lt] = families.map(|family| ln_family(&sample.path, &ln_p, &family));
-            let value = f64::from(c.contribution_unweighted.element_sum()) * harmonic(pt, lt) * factor(strategy);
+            let sums_of_p = [families[0], families[1], StrategySet::ALL].map(|family| ln_family(&sample.path, &ln_p, &family));
+            let value = f64::from(c.contribution_unweighted.element_sum()) * common(sums_of_p) * factor(strategy);
             let at = [block(c.pixel), count - 1];
             at.iter().for_each(|&b| sums[b][0] += value * f64::from(c.mis_weight));
             // The same strategy at work in its family, with the weights of that.

@@ -180,8 +180,13 @@ fn finding(table: &Table, failed: &[(Pair, f64)], k: u32) -> Option<(f64, Findin
     let (a, b) = (strategy(k, suspect), strategy(k, if own == 0 { worst.2 } else { worst.1 }));
     let scale = compared.sides[other].mean();
     let (share, error) = (compared.sides[own].mean() / scale, compared.difference.error() / scale);
-    let meaning = Said::new(Phrase::WrongPair, &[&k, &pair(a.s, a.t), &ratio(share), &ratio(error), &pair(b.s, b.t)]);
-    let look = Said::new(Phrase::LookPair, &[&pair(a.s, a.t), &blame(suspect).0, &here.len()]).with(sources(a).into());
+    let (name_a, name_b) = (pair(a.s, a.t), pair(b.s, b.t));
+    let meaning = Said::new(Phrase::WrongPair, &[&k, &name_a, &ratio(share), &ratio(error), &name_b]);
+    let look = if here.len() == 1 {
+        Said::new(Phrase::LookEither, &[&name_a]).with(sources(a).into()).and(&name_b).with(sources(b).into())
+    } else {
+        Said::new(Phrase::LookPair, &[&name_a, &blame(suspect).0, &here.len()]).with(sources(a).into())
+    };
     Some((size(z), Finding { meaning, look, place: compared.largest[own].place() }))
 }
 

@@ -207,11 +207,8 @@ fn replay_path(context: &Context, x: &[Vertex], (sample, by): (&Sample, Strategy
             Ok(rebuilt) => rebuilt,
             Err(error) => {
                 let rounded = matches!(error, ReplayError::Connection(Reason::Blocked | Reason::OutsideTheFilm));
-                if rounded {
-                    found.undecided.see(at)
-                } else {
-                    found.unwalkable.see(at)
-                }
+                let missing = if rounded { &mut found.undecided } else { &mut found.unwalkable };
+                missing.see(at);
                 complete = false;
                 continue;
             }

@@ -31,7 +31,7 @@ phrases! {
     DoesNotApply: "does not apply";
     // Names.
     NameReplay: "Replay";
-    NamePairwise: "Strategies against each other";
+    NamePairwise: "Strategies in pairs";
     NameFurnace: "Furnace";
     NameIntegrators: "BDPT = PT = LT";
     NameFinite: "Finite numbers";
@@ -57,28 +57,29 @@ phrases! {
     FurnaceMaterial: "not all surfaces are of one plain diffuse material that emits";
     FurnaceLights: "there are other lights than glowing surfaces";
     FurnaceOpen: "the room is not closed, or not all of it glows inwards";
-    GpuCannot: "the GPU does not render here: {}";
+    GpuCannot: "the GPU does not render here. {}.";
     // What failures mean, and where to look.
     WrongDensity: "Two strategies disagree about the density of the same path (ln p differs by {}): the weights are wrong, and where that p divides f, so is the image.";
-    LookDensity: "A path of {} edges made by {}, rebuilt as {}: {} differs most. src/bdpt/path.rs: p_{s+1}/p_s = p_light[s]/p_eye[s] (Veach 10.9); walks in src/bdpt/walk.rs.";
+    LookDensity: "A path with k = {} made by {}, rebuilt as {}: {} differs most. src/bdpt/path.rs: p_{s+1}/p_s = p_light[s]/p_eye[s] (Veach 10.9); walks in src/bdpt/walk.rs.";
     WrongWeights: "The weights of one path, each computed by its own strategy, sum to 1 ± {}: light is lost or counted twice.";
-    LookWeights: "A path of {} edges made by {}. src/bdpt/mis.rs: w_s = (n_s p_s)^β / Σ_i (n_i p_i)^β; what goes into it, src/bdpt/path.rs.";
+    LookWeights: "A path with k = {} made by {}. src/bdpt/mis.rs: w_s = (n_s p_s)^β / Σ_i (n_i p_i)^β; what goes into it, src/bdpt/path.rs.";
     WrongLight: "Two strategies find different light on the same path (ln f differs by {}): one of them is too bright or too dark.";
-    LookLight: "A path of {} edges made by {}, rebuilt as {}. src/bdpt/connect.rs: C*_{s,t} = α^L_s c_{s,t} α^E_t / n, f = C* n p; f must not depend on who made the path (src/scene/bsdf.rs).";
+    LookLight: "A path with k = {} made by {}, rebuilt as {}. src/bdpt/connect.rs: C*_{s,t} = α^L_s c_{s,t} α^E_t / n, f = C* n p; f must not depend on who made the path (src/scene/bsdf.rs).";
     WrongForms: "The renderers' fast form of a weight differs from its definition by {}.";
-    LookForms: "A path of {} edges made by {}, seen as {}. src/bdpt/mis.rs: mis_weight against mis_weights_by_definition.";
+    LookForms: "A path with k = {} made by {}, seen as {}. src/bdpt/mis.rs: mis_weight against mis_weights_by_definition.";
     Impossible: "A strategy that cannot make a path has a weight on it: its share of the light is lost.";
-    LookImpossible: "A path of {} edges made by {}, the weight of {}. src/bdpt/path.rs: `samplable`; src/bdpt/mis.rs.";
+    LookImpossible: "A path with k = {} made by {}, the weight of {}. src/bdpt/path.rs: `samplable`; src/bdpt/mis.rs.";
     NotRebuilt: "A strategy that should be able to make a path cannot rebuild it ({} of {}).";
-    LookNotRebuilt: "A path of {} edges made by {}, to be rebuilt as {}. src/bdpt/replay.rs says where it stops; src/bdpt/visibility.rs, if the edge is blocked one way only.";
-    WrongPair: "On paths of {} edges, {} finds {} ± {} of the light that {} finds: one of the two has a wrong density or a wrong contribution.";
+    LookNotRebuilt: "A path with k = {} made by {}, to be rebuilt as {}. src/bdpt/replay.rs says where it stops; src/bdpt/visibility.rs, if the edge is blocked one way only.";
+    WrongPair: "On paths with k = {}, {} finds {} ± {} of the light that {} finds: one of the two has a wrong density or a wrong contribution.";
     LookPair: "Most suspicious is {}, which takes part in {} of {} failed pairs. {}";
+    LookEither: "Only these two are apart: either may be wrong. {}: {} {}: {}";
     LookHitsLight: "src/bdpt/path.rs, join_at_light, and src/scene/light.rs: L_e and P_A(x₀).";
     LookNextEvent: "src/bdpt/ends.rs: the fresh light end; src/bdpt/connect.rs: c_{1,t}.";
     LookLightTracer: "src/bdpt/connect.rs, lens_factor, and src/scene/camera.rs: W_e and P_σ⊥.";
     LookHitsLens: "src/bdpt/crossing.rs: p = m + l/d, W_e⁽⁰⁾ W_e⁽¹⁾ / n.";
     LookConnect: "src/bdpt/connect.rs: c_{s,t} = f̄ G V f̄; src/scene/bsdf.rs.";
-    WrongFurnace: "Paths of {} edges carry {} ± {} where they must carry {}: light is lost or counted twice.";
+    WrongFurnace: "Paths with k = {} carry {} ± {} where they must carry {}: light is lost or counted twice.";
     WrongFurnaceSum: "All lengths together carry {} ± {} where they must carry {}: light is lost or counted twice.";
     LookFurnace: "src/bdpt/mis.rs and path.rs (weights), src/bdpt/context.rs (survival: q must be in p both ways), src/scene/bsdf/lambert.rs. Run `replay` and `pairwise`, which say which strategy.";
     WrongIntegrator: "{} finds {} ± {} of the light of all strategies, in {}: on the same paths.";

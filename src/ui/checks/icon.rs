@@ -33,6 +33,11 @@ impl Mark {
         }
     }
 
+    /// Does it mark what came of a check?
+    pub fn is_verdict(self) -> bool {
+        !matches!(self, Self::Running(_) | Self::None)
+    }
+
     /// Its colour.
     pub fn colour(self, visuals: &Visuals) -> Color32 {
         match self {
@@ -42,6 +47,14 @@ impl Mark {
             Self::DoesNotApply | Self::None => visuals.weak_text_color(),
         }
     }
+}
+
+/// Shows which way a row unfolds: a triangle that points right, or down where it is open.
+pub fn fold(ui: &mut Ui, open: bool) {
+    let (rect, _) = ui.allocate_exact_size(vec2(9.0, 18.0), Sense::hover());
+    let turn = |x: f32, y: f32| rect.center() + if open { vec2(-y, x) } else { vec2(x, y) };
+    let corners = vec![turn(3.5, 0.0), turn(-2.5, 4.0), turn(-2.5, -4.0)];
+    ui.painter().add(Shape::convex_polygon(corners, ui.visuals().weak_text_color(), Stroke::NONE));
 }
 
 /// Shows a mark; what is out of date is faint.

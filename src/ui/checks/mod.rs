@@ -11,7 +11,8 @@ use super::text::{CheckText, fill, phrase_text, said};
 use super::widgets::pair;
 use crate::report::check::said::short;
 use crate::report::check::{Check, CheckResult, Finding, Verdict};
-use eframe::egui::{Button, Frame, Label, Margin, ProgressBar, RichText, Role, Ui, WidgetInfo};
+use eframe::egui::text::LayoutJob;
+use eframe::egui::{Align, Button, Frame, Label, Layout, Margin, ProgressBar, RichText, Role, TextFormat, TextStyle, Ui, WidgetInfo};
 use icon::Mark;
 
 /// What a person asks of the checks.
@@ -92,20 +93,43 @@ fn summary(ui: &mut Ui, state: &State, runner: &Runner) {
     }
 }
 
-/// A check: its name and verdict, what was measured, and, unfolded, what it means and where to look.
+/// A check: its name, its verdict with what was measured, and, unfolded, what it means and what was found.
 fn row(ui: &mut Ui, state: &mut State, runner: &Runner, check: Check) {
     let lang = state.prefs.lang;
-    let (name, result) = (phrase_text(check.name(), lang), runner.result(check));
+    let result = runner.result(check).map(|(result, current)| (result.clone(), current));
     let share = runner.progress().filter(|(running, ..)| *running == check).map(|(_, share, _)| share);
-    let (mark, word) = match (share, result) {
+    let (mark, word) = match (share, &result) {
         (Some(share), _) => (Mark::Running(share as f32), state.say(CheckText::Underway)),
         _ if runner.waits(check) => (Mark::None, state.say(CheckText::Waiting)),
         (None, Some((result, _))) => (Mark::of(&result.verdict), phrase_text(result.verdict.word(), lang)),
         (None, None) => (Mark::None, state.say(CheckText::NotRun)),
     };
-    let stale = share.is_none() && result.is_some_and(|(_, current)| !current);
+    let stale = mark.is_verdict() && result.as_ref().is_some_and(|(_, current)| !current);
+    let unfolded = state.checks.unfolded.contains(&check);
+    title(ui, state, (check, runner.running()), (mark, word, stale));
+    let result = result.map(|(result, _)| result).filter(|_| mark.is_verdict());
+    verdict(ui, state, (mark, word, stale), result.as_deref());
+    if unfolded || result.is_none() {
+        ui.add(Label::new(RichText::new(phrase_text(check.about(), lang)).weak()).wrap());
+    }
+    let Some(result) = result else { return };
+    if unfolded && result.samples > 0 {
+        let (samples, seconds) = (result.samples.to_string(), short(result.seconds));
+        ui.label(RichText::new(fill(state.say(CheckText::SamplesTime), &[&samples, &seconds])).weak());
+    }
+    // A failure explains itself without a click; the others of its kind are there for who wants to know.
+    let count = if unfolded { result.findings.len() } else { 1 };
+    for finding in result.findings.iter().take(count) {
+        explain(ui, state, finding, stale);
+    }
+}
+
+/// A check's name, which unfolds it, and the button that runs it.
+fn title(ui: &mut Ui, state: &mut State, (check, running): (Check, bool), (mark, word, stale): (Mark, &str, bool)) {
+    let name = phrase_text(check.name(), state.prefs.lang);
     let unfolded = state.checks.unfolded.contains(&check);
     ui.horizontal(|ui| {
+        icon::fold(ui, unfolded);
         icon::show(ui, mark, stale);
         let spoken = format!("{name}: {word}");
         let title = Button::selectable(unfolded, RichText::new(name).strong());
@@ -117,13 +141,8 @@ fn row(ui: &mut Ui, state: &mut State, runner: &Runner, check: Check) {
                 state.checks.unfolded.push(check);
             }
         }
-        ui.label(RichText::new(word).color(mark.colour(ui.visuals())));
-        if stale {
-            let text = RichText::new(state.say(CheckText::Stale)).italics().weak();
-            ui.label(text).on_hover_text(state.say(CheckText::HelpStale));
-        }
-        ui.with_layout(eframe::egui::Layout::right_to_left(eframe::egui::Align::Center), |ui| {
-            let run = ui.add_enabled(!runner.running(), Button::new(state.say(CheckText::RunOne)).small());
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let run = ui.add_enabled(!running, Button::new(state.say(CheckText::RunOne)).small());
             let run = run.on_hover_text(state.say(CheckText::HelpRunOne));
             let spoken = format!("{}: {name}", state.say(CheckText::RunOne));
             run.widget_info(|| WidgetInfo::labeled(Role::Button, run.enabled(), &spoken));
@@ -132,28 +151,24 @@ fn row(ui: &mut Ui, state: &mut State, runner: &Runner, check: Check) {
             }
         });
     });
-    let result = result.map(|(result, _)| result.clone());
-    if unfolded || result.is_none() {
-        ui.add(Label::new(RichText::new(phrase_text(check.about(), lang)).weak()).wrap());
-    }
-    if let Some(result) = result {
-        outcome(ui, state, &result, (unfolded, stale));
-    }
 }
 
-fn outcome(ui: &mut Ui, state: &mut State, result: &CheckResult, (unfolded, stale): (bool, bool)) {
-    let lang = state.prefs.lang;
-    if let Some(text) = result.reason().or(result.measured.as_ref()) {
-        ui.add(Label::new(said(text, lang)).wrap());
+/// The verdict and what it rests on, in one paragraph: it fits whatever the width.
+fn verdict(ui: &mut Ui, state: &State, (mark, word, stale): (Mark, &str, bool), result: Option<&CheckResult>) {
+    let (visuals, font_id) = (ui.visuals(), TextStyle::Body.resolve(ui.style()));
+    let format = |color| TextFormat { font_id: font_id.clone(), color, ..TextFormat::default() };
+    let mut job = LayoutJob::default();
+    job.append(word, 0.0, format(mark.colour(visuals)));
+    if stale {
+        let text = format!(" · {}", state.say(CheckText::Stale));
+        job.append(&text, 0.0, TextFormat { italics: true, ..format(visuals.weak_text_color()) });
     }
-    if unfolded && result.samples > 0 {
-        let (samples, seconds) = (result.samples.to_string(), short(result.seconds));
-        ui.label(RichText::new(fill(state.say(CheckText::SamplesTime), &[&samples, &seconds])).weak());
+    if let Some(text) = result.and_then(|result| result.reason().or(result.measured.as_ref())) {
+        job.append(&format!(": {}", said(text, state.prefs.lang)), 0.0, format(visuals.text_color()));
     }
-    // A failure explains itself without a click; the others of its kind are there for who wants to know.
-    let count = if unfolded { result.findings.len() } else { 1 };
-    for finding in result.findings.iter().take(count) {
-        explain(ui, state, finding, stale);
+    let label = ui.add(Label::new(job).wrap());
+    if stale {
+        label.on_hover_text(state.say(CheckText::HelpStale));
     }
 }
 

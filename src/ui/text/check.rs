@@ -24,7 +24,7 @@ texts! { CheckText;
     SamplesTime: "{} samples, {} s", "{} 个样本，{} 秒";
     WhatItMeans: "What it means", "含义";
     WhereToLook: "Where to look", "排查方向";
-    Show: "Show", "查看";
+    Show: "Show this sample", "查看此样本";
     HelpShow: "Selects pixel {}, sample {} and strategy {}, the worst case, and shows its path.", "选中最严重的情形：像素 {}、样本 {}、策略 {}，并显示其路径。";
     SummaryPassed: "{} of {} passed", "{} / {} 项通过";
     SummaryFailed: "{} failed", "{} 项未通过";
@@ -79,7 +79,7 @@ fn chinese(phrase: Phrase) -> &'static str {
         Phrase::FurnaceMaterial => "并非所有表面都是同一种发光的纯漫反射材质",
         Phrase::FurnaceLights => "除发光表面外还有其他光源",
         Phrase::FurnaceOpen => "房间不封闭，或并非处处向内发光",
-        Phrase::GpuCannot => "GPU 在此不渲染：{}",
+        Phrase::GpuCannot => "GPU 在此不渲染。{}.",
         Phrase::WrongDensity => "两个策略对同一条路径的概率密度意见不一（ln p 相差 {}）：权重有误；凡以该 p 除 f 之处，图像也有误。",
         Phrase::LookDensity => {
             "{} 条边的路径，由 {} 生成，按 {} 重建：{} 相差最大。src/bdpt/path.rs：p_{s+1}/p_s = p_light[s]/p_eye[s]（Veach 10.9）；游走见 src/bdpt/walk.rs。"
@@ -102,6 +102,7 @@ fn chinese(phrase: Phrase) -> &'static str {
         }
         Phrase::WrongPair => "在 {} 条边的路径上，{} 得到的光是 {} ± {} 倍于 {}：两者之一的概率密度或贡献有误。",
         Phrase::LookPair => "最可疑的是 {}，它出现在未通过的各对中的 {} 对（共 {} 对）。{}",
+        Phrase::LookEither => "只有这两者不一致：两者都可能有误。{}：{} {}：{}",
         Phrase::LookHitsLight => "src/bdpt/path.rs 的 join_at_light 与 src/scene/light.rs：L_e 与 P_A(x₀)。",
         Phrase::LookNextEvent => "src/bdpt/ends.rs：新选取的光源端点；src/bdpt/connect.rs：c_{1,t}。",
         Phrase::LookLightTracer => "src/bdpt/connect.rs 的 lens_factor 与 src/scene/camera.rs：W_e 与 P_σ⊥。",
