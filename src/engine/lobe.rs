@@ -116,8 +116,11 @@ pub fn of(bsdf: &Bsdf, mode: TransportMode, [w_in, w_out]: [Vec3; 2], [rings, se
         if let Some(drawn) = bsdf.sample(w_in, mode, u, Vec2::splat(0.5)).filter(|drawn| drawn.delta)
             && lobe.diracs.iter().all(|(w, _)| w.distance(drawn.w) > 1e-4)
         {
-            lobe.diracs.push((drawn.w, drawn.f));
-            lobe.albedo += drawn.f;
+            // f̄ has the ratio of the normals' cosines on the light's side; without it, it is R or T.
+            let (w_l, _) = mode.light_eye(w_in, drawn.w);
+            let share = drawn.f * (w_l.dot(bsdf.n_g) / w_l.dot(bsdf.n_s)).abs();
+            lobe.diracs.push((drawn.w, share));
+            lobe.albedo += share;
         }
     }
     lobe

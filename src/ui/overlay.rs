@@ -69,7 +69,7 @@ pub fn show(ui: &mut Ui, painter: &Painter, state: &State, live: &Live, view: &d
         }
     }
     if shown.legend {
-        super::legend::show(ui, state, live, [view.clip(), view.picture()]);
+        super::legend::show(ui, state, live, [view.clip(), view.picture()], !view.shows_lens());
     }
 }
 

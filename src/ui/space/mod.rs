@@ -138,8 +138,8 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, stage: &mut Stage, gpu:
     }
     furniture::show(ui, &painter, state, &sight);
     samples.show(ui, &painter, state, (engine.generation(), job), &sight);
-    overlay::show(ui, &painter, state, live, &sight);
     let scale = if state.space.lobe { lobe.show(&painter, state, live, &sight) } else { None };
+    overlay::show(ui, &painter, state, live, &sight);
     pick::obey(ui, &painter, state, live, (&sight, samples, &response));
     notes(ui, &painter, panel, note.map(|note| state.say(note).to_owned()).into_iter().chain(scale));
     if response.has_focus() {
@@ -177,18 +177,18 @@ fn name(ui: &Ui, state: &mut State, response: &Response) {
     state.space.attention = Attention { pointer: response.contains_pointer(), focus: response.has_focus(), flying };
 }
 
-/// Small sentences in the lower left corner.
+/// Small sentences in the upper left corner.
 fn notes(ui: &Ui, painter: &Painter, panel: Rect, notes: impl Iterator<Item = String>) {
-    let mut bottom = panel.bottom() - 6.0;
+    let mut top = panel.top() + 6.0;
     for note in notes {
         let colour = ui.visuals().text_color();
         let galley = painter.layout(note.clone(), FontId::proportional(12.0), colour, (panel.width() - 24.0).max(40.0));
-        let plate = Align2::LEFT_BOTTOM.anchor_size(pos2(panel.left() + 6.0, bottom), galley.size() + vec2(12.0, 4.0));
+        let plate = Align2::LEFT_TOP.anchor_size(pos2(panel.left() + 6.0, top), galley.size() + vec2(12.0, 4.0));
         painter.rect_filled(plate, CornerRadius::same(4), ui.visuals().window_fill().gamma_multiply(0.85));
         painter.galley(plate.min + vec2(6.0, 2.0), galley, colour);
         let spoken = ui.interact(plate, ui.scope_id().with(("space note", &note)), Sense::hover());
         spoken.widget_info(|| WidgetInfo::labeled(Role::Label, true, &note));
-        bottom = plate.top() - 4.0;
+        top = plate.bottom() + 4.0;
     }
 }
 
