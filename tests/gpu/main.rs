@@ -16,6 +16,7 @@ mod load;
 mod lockstep;
 mod measure;
 mod paths;
+mod raster;
 #[allow(dead_code, reason = "made for the ladder, of which this is a rung")]
 #[path = "../ladder/scenes.rs"]
 mod scenes;

@@ -8,6 +8,8 @@ mod pick;
 mod samples;
 mod sight;
 mod surfaces;
+#[cfg(test)]
+mod tests;
 mod toolbar;
 
 pub use camera::{Orbit, Pose};
