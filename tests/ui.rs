@@ -35,6 +35,8 @@ mod screenshots;
 mod skip;
 #[path = "ui/space.rs"]
 mod space;
+#[path = "ui/space_looks.rs"]
+mod space_looks;
 #[path = "ui/surfaces.rs"]
 mod surfaces;
 #[path = "ui/surroundings.rs"]

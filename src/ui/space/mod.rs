@@ -19,7 +19,7 @@ pub use samples::{SampleFilter, Which};
 use super::format::indexed;
 use super::live::Live;
 use super::overlay;
-use super::projection::Projector;
+use super::projection::{Projection, Projector};
 use super::state::{Selection, State};
 use super::text::{SpaceText, fill};
 use super::theme;
@@ -27,7 +27,7 @@ use super::widgets::pair;
 use crate::engine::Job;
 use crate::scene::View;
 use eframe::egui::{
-    self, Align2, CornerRadius, FontId, Painter, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
+    self, Align2, CornerRadius, FontId, Painter, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 use eframe::egui_wgpu::RenderState;
 use sight::{Answers, Sight};
@@ -108,6 +108,15 @@ pub struct Stage {
     surfaces: Option<surfaces::Surfaces>,
     samples: samples::Samples,
     lobe: lobe::Kept,
+    seen: Option<Projector>,
+}
+
+impl Stage {
+    /// Where a point (file coordinates) is on the screen; `None` if it is not in sight.
+    pub fn on_screen(&self, p: [f64; 3]) -> Option<Pos2> {
+        let seen = self.seen.as_ref()?;
+        seen.point(p).filter(|at| seen.clip.contains(*at))
+    }
 }
 
 /// The view's widget, for the keyboard.
@@ -132,6 +141,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, stage: &mut Stage, gpu:
     navigate::frame(state, live, job, panel);
     let projector = projector(state, job, panel);
     state.space.pose = pose(&projector);
+    stage.seen = Some(projector.clone());
     let note = surfaces::show(ui, &painter, (state.space.cull, &projector), job, (&mut stage.surfaces, gpu));
     let Stage { answers, samples, lobe, .. } = stage;
     let sight = Sight::new(&job.scene, projector, job.view(), state.space.cull, answers);

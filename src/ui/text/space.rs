@@ -1,7 +1,6 @@
 //! The texts of the 3-D view.
 
 texts! { SpaceText;
-    Title: "3-D view", "三维视图";
     CanvasName: "3-D view, vertex {} of strategy {} selected", "三维视图，已选顶点 {}，策略 {}";
     Frame: "Frame", "取景";
     HelpFrame: "Move the view to the selected vertex; again, to the whole path. F does the same while the pointer is here. (A double click on a vertex frames that one.)", "把视图移到所选顶点；再按一次则取整条路径。指针在此处时按 F 键作用相同。（双击某个顶点即对准它。）";
@@ -25,7 +24,8 @@ texts! { SpaceText;
     SideLight: "edges from the light", "光源一侧的边";
     SideEye: "edges from the eye", "视线一侧的边";
     SideConnection: "connections", "连接边";
-    SampleScale: "Opacity: contribution, a tenth fainter per quarter of the range (4 decades)", "不透明度：贡献的对数，范围为 4 个数量级";
+    HelpSides: "Which edges of these paths are drawn", "绘制这些路径的哪些边";
+    SampleScale: "Opacity: logarithm of the contribution, over 4 decades", "不透明度：贡献的对数，跨 4 个数量级";
     View: "View", "视图";
     HelpView: "What is drawn in space, and how the view behaves", "三维视图中显示的内容及其行为";
     Cull: "see into rooms", "看进房间";
