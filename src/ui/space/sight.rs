@@ -108,7 +108,8 @@ impl<'a> Sight<'a> {
         let triangle = &self.scene.triangles[hit.triangle as usize];
         let n = (triangle.p1 - triangle.p0).cross(triangle.p2 - triangle.p0);
         let glass = matches!(self.scene.materials[triangle.material as usize].kind, DIELECTRIC | THIN_DIELECTRIC);
-        !(self.cull && n.dot(eye - triangle.p0) < 0.0) && !(hides && glass) && self.scene.opacity(hit) >= 0.5
+        let left_out = self.cull && n.dot(eye - triangle.p0) < 0.0;
+        !left_out && !(hides && glass) && self.scene.opacity(hit) >= 0.5
     }
 
     /// Does a surface stand before the point (m, relative to the scene's origin)?
