@@ -284,6 +284,16 @@ fn everything_in_the_view_has_a_name_in_both_languages() {
     assert_eq!(window.state().state().maximised, Maximised::None);
 }
 
+#[test]
+fn help_lists_the_view_s_keys() {
+    let mut window = alone_with("cornell");
+    press(&mut window, Key::Questionmark);
+    for row in bdpt_explorer::ui::keys::SPACE {
+        window.get_by_label(row.text.in_language(Lang::En));
+        assert!(window.query_all_by_label(row.shown).next().is_some(), "{}", row.shown);
+    }
+}
+
 /// Whatever is done to it, the view stays finite and in sight of the scene.
 #[test]
 fn two_hundred_random_moves_leave_the_view_in_order() {

@@ -200,7 +200,7 @@ fn threads<'a>(kept: &'a BTreeMap<u32, Vec<Edge>>, state: &'a State, sight: &'a 
 
 /// How opaque a line is whose contribution is this part of the largest, among so many lines.
 pub fn opacity(part: f32, lines: usize) -> f32 {
-    let most = (16.0 / (lines as f32).sqrt()).clamp(0.25, 0.85);
+    let most = (10.0 / (lines as f32).sqrt()).clamp(0.15, 0.85);
     (0.04 + most * (1.0 + part.log10() / DECADES).clamp(0.0, 1.0)).min(0.85)
 }
 
