@@ -158,3 +158,38 @@ fn a_device_with_webgl2_s_limits_draws_it() {
     assert!(pollster::block_on(scope.pop()).is_none());
     gpu.check().unwrap();
 }
+
+/// A measurement: a scene of a million triangles on its way to the device, and a picture of it.
+/// `cargo test --test gpu -- --ignored --nocapture a_million_triangles`
+#[test]
+#[ignore = "a measurement"]
+fn a_million_triangles() {
+    let Some(gpu) = gpu("a_million_triangles") else { return };
+    let mut room = Room::new("many");
+    let white = room.material(Material::lambert(Vec3::splat(0.8)));
+    for i in 0..4 {
+        room.sphere([f64::from(i % 2) - 0.5, f64::from(i / 2) - 0.5, 0.0], 0.45, 256, true, white);
+    }
+    room.point([0.0, 0.0, 3.0], Vec3::ONE);
+    room.camera([0.0, 0.0, 3.0], [0.0, 0.0, 0.0], 40.0);
+    let scene = room.build();
+    let mut raster = Raster::new(&gpu.device, &gpu.queue);
+    let (mut passes, mut longest, began) = (0, Duration::ZERO, std::time::Instant::now());
+    loop {
+        let pass = std::time::Instant::now();
+        let done = raster.load(&scene, Duration::from_millis(4));
+        (passes, longest) = (passes + 1, longest.max(pass.elapsed()));
+        if done {
+            break;
+        }
+    }
+    println!("{} triangles: {passes} passes, the longest {longest:?}, {:?} in all", scene.triangles.len(), began.elapsed());
+    let axes = [Vec3::X, Vec3::Y, -Vec3::Z];
+    for x in [0.0, 0.01, 0.02] {
+        let (position, began) = (Vec3::new(x, 0.0, 3.0), std::time::Instant::now());
+        raster.draw(&Shot { position, axes, half_extent: Vec2::splat(0.4), near: 1e-3, cull: true, size: [640, 480], ground: GROUND });
+        gpu.device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
+        println!("a picture: {:?}", began.elapsed());
+    }
+    gpu.check().unwrap();
+}

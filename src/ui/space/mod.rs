@@ -145,7 +145,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, stage: &mut Stage, gpu:
     let note = surfaces::show(ui, &painter, (state.space.cull, &projector), job, (&mut stage.surfaces, gpu));
     let Stage { answers, samples, lobe, .. } = stage;
     let sight = Sight::new(&job.scene, projector, job.view(), state.space.cull, answers);
-    if note == Some(SpaceText::NoAdapter) {
+    if note.is_some() {
         furniture::room(ui, &painter, &sight);
     }
     furniture::show(ui, &painter, state, &sight);

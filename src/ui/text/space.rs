@@ -40,6 +40,7 @@ texts! { SpaceText;
     Mouse: "Mouse?", "鼠标？";
     HelpMouse: "Drag: orbit · Shift+drag or middle button: pan · wheel: nearer, farther · right drag: look round, with W A S D Q E: fly (Shift: faster)\nClick: select a vertex or an edge · double click: frame the vertex · Ctrl+click on a surface: select the pixel that shows it\nKeyboard, with the focus here: arrows orbit, + and − go nearer and farther", "拖动：环绕 · Shift+拖动或中键：平移 · 滚轮：远近 · 右键拖动：环顾，同时按 W A S D Q E：飞行（Shift 加速）\n单击：选择顶点或边 · 双击：对准顶点 · 在表面上 Ctrl+单击：选择显示该处的像素\n键盘（焦点在此处）：方向键环绕，+ 和 − 调整远近";
     NoAdapter: "surfaces are not drawn: there is no graphics device for them", "未绘制表面：没有可用的图形设备";
+    Resting: "surfaces follow when the view rests: there are many, and the processor draws them", "视图静止后再绘制表面：表面很多，而且由处理器绘制";
     TooLarge: "surfaces are not drawn: the graphics device has no room for this scene", "未绘制表面：图形设备容纳不下此场景";
     TipSubpath: "{} · {}", "{} · {}";
     TipConnection: "{}: joins {} and {}", "{}：连接 {} 与 {}";
