@@ -51,6 +51,8 @@ mod skip;
 mod space;
 #[path = "ui/study.rs"]
 mod study;
+#[path = "ui/space_looks.rs"]
+mod space_looks;
 #[path = "ui/surfaces.rs"]
 mod surfaces;
 #[path = "ui/surroundings.rs"]

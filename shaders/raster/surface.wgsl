@@ -45,5 +45,7 @@ fn shade(in: Surface) -> @location(0) vec4<f32> {
     let emits = in.normal.w > 0.75 || (in.normal.w > 0.25 && facing > 0.0);
     // Calm: what matters is drawn over it.
     let calm = mix(vec3<f32>(dot(in.color.rgb, vec3<f32>(0.3, 0.6, 0.1))), in.color.rgb, 0.6) * (0.22 + 0.5 * abs(facing));
-    return vec4<f32>(select(calm, in.color.rgb, emits), in.color.a);
+    // What shines is bright, but its shape can be told.
+    let bright = in.color.rgb * (0.75 + 0.25 * abs(facing));
+    return vec4<f32>(select(calm, bright, emits), in.color.a);
 }

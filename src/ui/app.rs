@@ -95,6 +95,11 @@ impl App {
         self.image.min + vec2(x / width * self.image.width(), y / height * self.image.height())
     }
 
+    /// Where a point (file coordinates) is in the 3-D view on the screen; `None` if it is not in sight.
+    pub fn in_space(&self, p: [f64; 3]) -> Option<Pos2> {
+        self.stage.on_screen(p)
+    }
+
     fn sync(&mut self, ctx: &egui::Context) {
         let shown = self.live.sync(&mut self.state);
         if self.desk.sync(&mut self.state, &self.live) || shown {

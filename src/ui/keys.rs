@@ -326,6 +326,23 @@ mod tests {
     }
 
     #[test]
+    fn a_key_does_one_thing_in_the_3d_view_and_there_only_while_it_is_heard() {
+        let mut keys: Vec<&str> = SPACE.iter().flat_map(|row| row.keys).map(|key| key.name()).collect();
+        let count = keys.len();
+        keys.sort_unstable();
+        keys.dedup();
+        assert_eq!(keys.len(), count);
+        let mut state = State::new(Preferences::default(), [8, 8]);
+        assert!(!in_space(&mut state, Key::F) && state.space.frame.is_none());
+        state.space.attention.pointer = true;
+        assert!(in_space(&mut state, Key::F) && state.space.frame.is_some());
+        assert!(!in_space(&mut state, Key::ArrowLeft) && !in_space(&mut state, Key::E));
+        (state.space.attention.focus, state.space.attention.flying) = (true, true);
+        assert!(in_space(&mut state, Key::ArrowLeft) && in_space(&mut state, Key::E) && !in_space(&mut state, Key::N));
+        assert_ne!(state.space.steps, [0.0; 3]);
+    }
+
+    #[test]
     fn actions_do_what_they_say() {
         let mut state = State::new(Preferences::default(), [8, 8]);
         perform(&mut state, Action::Nudge, 1, false);

@@ -19,20 +19,21 @@ const ROWS: &[Text] = &[
 const ROW: f32 = 19.0;
 
 /// What can be in the picture of this scene.
-fn rows(state: &State, live: &Live) -> Vec<Text> {
+fn rows(state: &State, live: &Live, through_lens: bool) -> Vec<Text> {
     let mut rows = ROWS.to_vec();
     if live.scene().is_some_and(|scene| scene.features.environment || scene.features.directional_lights) {
         rows.push(Text::LegendInfinity);
     }
-    if live.lens(state).is_some_and(|lens| lens.radius > 0.0) {
+    if through_lens && live.lens(state).is_some_and(|lens| lens.radius > 0.0) {
         rows.push(Text::LegendLens);
     }
     rows
 }
 
-/// Draws the legend at the bottom left of `panel`, if it fits beside the image or is small against it.
-pub fn show(ui: &Ui, state: &State, live: &Live, [panel, image]: [Rect; 2]) {
-    let rows = rows(state, live);
+/// Draws the legend at the bottom left of `panel`, if it fits beside the image or is small against it. `through_lens`: the
+/// picture is what the lens's centre sees.
+pub fn show(ui: &Ui, state: &State, live: &Live, [panel, image]: [Rect; 2], through_lens: bool) {
+    let rows = rows(state, live, through_lens);
     let painter = ui.painter().with_clip_rect(panel);
     let visuals = ui.visuals();
     let font = FontId::proportional(12.5);

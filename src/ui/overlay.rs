@@ -69,7 +69,7 @@ pub fn show(ui: &mut Ui, painter: &Painter, state: &State, live: &Live, view: &d
         }
     }
     if shown.legend {
-        super::legend::show(ui, state, live, [view.clip(), view.picture()]);
+        super::legend::show(ui, state, live, [view.clip(), view.picture()], !view.shows_lens());
     }
 }
 
@@ -233,7 +233,7 @@ fn splats(ui: &mut Ui, painter: &Painter, state: &State, record: &PathRecord, vi
         response.on_hover_ui(|ui| {
             ui.label(full_name(strategy.strategy(), state.prefs.lang));
             ui.label(state.say(Text::HelpSplat));
-            if record.lens_radius > 0.0 {
+            if record.lens_radius > 0.0 && !view.shows_lens() {
                 ui.label(RichText::new(state.say(Text::HelpLensDrawing)).weak());
             }
         });

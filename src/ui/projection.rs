@@ -50,6 +50,7 @@ pub trait Projection {
 }
 
 /// A camera together with its picture's place on the screen.
+#[derive(Clone, Debug)]
 pub struct Projector {
     view: View,
     origin: DVec3,

@@ -17,6 +17,7 @@ mod lockstep;
 mod measure;
 mod paths;
 mod probe;
+mod raster;
 #[allow(dead_code, reason = "made for the ladder, of which this is a rung")]
 #[path = "../ladder/scenes.rs"]
 mod scenes;

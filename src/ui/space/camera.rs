@@ -107,6 +107,9 @@ impl Orbit {
 
     /// Turns about the eye, radians.
     pub fn look_round(&mut self, yaw: f32, pitch: f32) {
+        if [yaw, pitch] == [0.0; 2] {
+            return;
+        }
         let eye = self.pose().position;
         self.turn(yaw, pitch);
         self.pivot = eye + self.axis() * self.distance;
@@ -120,6 +123,9 @@ impl Orbit {
 
     /// Changes the distance from `point` by a factor; its image stays where it is.
     pub fn dolly(&mut self, point: Vec3, factor: f32) {
+        if factor == 1.0 {
+            return;
+        }
         let nearest = 1e-6 * (1.0 + self.pivot.length());
         let factor = factor.max(nearest / self.distance);
         self.pivot = point + (self.pivot - point) * factor;

@@ -14,11 +14,12 @@ const FADED: f32 = 0.35;
 /// Most lights that get a mark.
 const MOST: usize = 64;
 
-/// Lines in space, in one colour.
+/// Lines in space, in one colour, on a ground of another, so that they read on any surface.
 struct Wire<'a> {
     painter: &'a Painter,
     sight: &'a Sight<'a>,
     colour: Color32,
+    ground: Color32,
     width: f32,
 }
 
@@ -29,8 +30,9 @@ impl Wire<'_> {
 
     fn file_line(&self, a: [f64; 3], b: [f64; 3]) {
         for piece in self.sight.pieces(a, b) {
-            let colour = if piece.hidden { self.colour.gamma_multiply(FADED) } else { self.colour };
-            self.painter.line_segment(piece.line, Stroke::new(self.width, colour));
+            let part = if piece.hidden { FADED } else { 1.0 };
+            self.painter.line_segment(piece.line, Stroke::new(self.width + 2.0, self.ground.gamma_multiply(part)));
+            self.painter.line_segment(piece.line, Stroke::new(self.width, self.colour.gamma_multiply(part)));
         }
     }
 
@@ -66,7 +68,7 @@ impl Wire<'_> {
 
 /// The box around the scene, where its surfaces cannot be drawn.
 pub fn room(ui: &Ui, painter: &Painter, sight: &Sight) {
-    let wire = Wire { painter, sight, colour: ui.visuals().weak_text_color(), width: 1.0 };
+    let wire = Wire { painter, sight, colour: ui.visuals().weak_text_color(), ground: Color32::TRANSPARENT, width: 1.0 };
     let Some(root) = sight.scene.bvh.nodes.first() else { return };
     let corner = |i: usize| {
         let pick = |axis: usize| if i >> axis & 1 == 0 { root.min[axis] } else { root.max[axis] };
@@ -84,14 +86,19 @@ pub fn show(ui: &Ui, painter: &Painter, state: &State, sight: &Sight) {
     if !state.space.through {
         camera(ui, painter, state, sight);
     }
-    let wire = Wire { painter, sight, colour: theme::LIGHT, width: 1.5 };
+    let wire = Wire { painter, sight, colour: theme::LIGHT, ground: ground(ui), width: 1.5 };
     let radius = sight.scene.sphere.radius;
     let lights = sight.scene.lights.list.iter().filter(|light| light.kind != AREA);
     lights.take(MOST).for_each(|light| self::light(&wire, light, radius));
 }
 
+/// What a line is seen against.
+fn ground(ui: &Ui) -> Color32 {
+    if ui.visuals().dark_mode { Color32::from_black_alpha(110) } else { Color32::from_white_alpha(150) }
+}
+
 fn camera(ui: &Ui, painter: &Painter, state: &State, sight: &Sight) {
-    let wire = Wire { painter, sight, colour: ui.visuals().strong_text_color(), width: 1.2 };
+    let wire = Wire { painter, sight, colour: ui.visuals().strong_text_color(), ground: ground(ui), width: 1.2 };
     let (view, near) = (&sight.render, sight.film_distance);
     let [width, height] = view.size.map(|n| n as f32);
     let [x, y] = state.selection.pixel.map(|v| v as f32);

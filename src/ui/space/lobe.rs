@@ -14,8 +14,9 @@ use eframe::egui::{Mesh, Painter, Pos2, Shape, Stroke};
 
 /// Rings and sectors.
 const GRID: [usize; 2] = [28, 32];
-/// Radius of the largest value, points.
+/// Radius of the largest value, points; in a low panel, a part of its height.
 const SIZE: f32 = 58.0;
+const PART: f32 = 0.13;
 /// Decades from the largest value down to the vertex itself.
 const DECADES: f32 = 3.0;
 
@@ -56,7 +57,7 @@ fn draw(painter: &Painter, lobe: &Lobe, sight: &Sight) -> Option<()> {
     let at = sight.point(lobe.position)?;
     let view = sight.projector.view();
     let depth = sight.projector.relative_to_camera(lobe.position).dot(view.axis);
-    let size = SIZE * depth * view.axes().half_extent.y / (0.5 * sight.projector.image.height());
+    let size = SIZE.min(PART * sight.clip().height()) * depth * view.axes().half_extent.y / (0.5 * sight.projector.image.height());
     let place = |w: Vec3, part: f32| -> Option<Pos2> {
         let tip = (w * (size * part)).as_dvec3().to_array();
         sight.point([0, 1, 2].map(|i| lobe.position[i] + tip[i]))

@@ -8,6 +8,8 @@ mod pick;
 mod samples;
 mod sight;
 mod surfaces;
+#[cfg(test)]
+mod tests;
 mod toolbar;
 
 pub use camera::{Orbit, Pose};
@@ -17,7 +19,7 @@ pub use samples::{SampleFilter, Which};
 use super::format::indexed;
 use super::live::Live;
 use super::overlay;
-use super::projection::Projector;
+use super::projection::{Projection, Projector};
 use super::state::{Selection, State};
 use super::text::{SpaceText, fill};
 use super::theme;
@@ -25,7 +27,7 @@ use super::widgets::pair;
 use crate::engine::Job;
 use crate::scene::View;
 use eframe::egui::{
-    self, Align2, CornerRadius, FontId, Painter, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
+    self, Align2, CornerRadius, FontId, Painter, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 use eframe::egui_wgpu::RenderState;
 use sight::{Answers, Sight};
@@ -106,6 +108,15 @@ pub struct Stage {
     surfaces: Option<surfaces::Surfaces>,
     samples: samples::Samples,
     lobe: lobe::Kept,
+    seen: Option<Projector>,
+}
+
+impl Stage {
+    /// Where a point (file coordinates) is on the screen; `None` if it is not in sight.
+    pub fn on_screen(&self, p: [f64; 3]) -> Option<Pos2> {
+        let seen = self.seen.as_ref()?;
+        seen.point(p).filter(|at| seen.clip.contains(*at))
+    }
 }
 
 /// The view's widget, for the keyboard.
@@ -130,16 +141,17 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, stage: &mut Stage, gpu:
     navigate::frame(state, live, job, panel);
     let projector = projector(state, job, panel);
     state.space.pose = pose(&projector);
+    stage.seen = Some(projector.clone());
     let note = surfaces::show(ui, &painter, (state.space.cull, &projector), job, (&mut stage.surfaces, gpu));
     let Stage { answers, samples, lobe, .. } = stage;
     let sight = Sight::new(&job.scene, projector, job.view(), state.space.cull, answers);
-    if note == Some(SpaceText::NoAdapter) {
+    if note.is_some() {
         furniture::room(ui, &painter, &sight);
     }
     furniture::show(ui, &painter, state, &sight);
     samples.show(ui, &painter, state, (engine.generation(), job), &sight);
-    overlay::show(ui, &painter, state, live, &sight);
     let scale = if state.space.lobe { lobe.show(&painter, state, live, &sight) } else { None };
+    overlay::show(ui, &painter, state, live, &sight);
     pick::obey(ui, &painter, state, live, (&sight, samples, &response));
     notes(ui, &painter, panel, note.map(|note| state.say(note).to_owned()).into_iter().chain(scale));
     if response.has_focus() {
@@ -177,18 +189,18 @@ fn name(ui: &Ui, state: &mut State, response: &Response) {
     state.space.attention = Attention { pointer: response.contains_pointer(), focus: response.has_focus(), flying };
 }
 
-/// Small sentences in the lower left corner.
+/// Small sentences in the upper left corner.
 fn notes(ui: &Ui, painter: &Painter, panel: Rect, notes: impl Iterator<Item = String>) {
-    let mut bottom = panel.bottom() - 6.0;
+    let mut top = panel.top() + 6.0;
     for note in notes {
         let colour = ui.visuals().text_color();
         let galley = painter.layout(note.clone(), FontId::proportional(12.0), colour, (panel.width() - 24.0).max(40.0));
-        let plate = Align2::LEFT_BOTTOM.anchor_size(pos2(panel.left() + 6.0, bottom), galley.size() + vec2(12.0, 4.0));
+        let plate = Align2::LEFT_TOP.anchor_size(pos2(panel.left() + 6.0, top), galley.size() + vec2(12.0, 4.0));
         painter.rect_filled(plate, CornerRadius::same(4), ui.visuals().window_fill().gamma_multiply(0.85));
         painter.galley(plate.min + vec2(6.0, 2.0), galley, colour);
         let spoken = ui.interact(plate, ui.scope_id().with(("space note", &note)), Sense::hover());
         spoken.widget_info(|| WidgetInfo::labeled(Role::Label, true, &note));
-        bottom = plate.top() - 4.0;
+        top = plate.bottom() + 4.0;
     }
 }
 

@@ -198,9 +198,10 @@ fn threads<'a>(kept: &'a BTreeMap<u32, Vec<Edge>>, state: &'a State, sight: &'a 
     })
 }
 
-/// How opaque a line is whose contribution is this part of the largest.
-pub fn opacity(part: f32) -> f32 {
-    0.06 + 0.8 * (1.0 + part.log10() / DECADES).clamp(0.0, 1.0)
+/// How opaque a line is whose contribution is this part of the largest, among so many lines.
+pub fn opacity(part: f32, lines: usize) -> f32 {
+    let most = (10.0 / (lines as f32).sqrt()).clamp(0.15, 0.85);
+    (0.04 + most * (1.0 + part.log10() / DECADES).clamp(0.0, 1.0)).min(0.85)
 }
 
 /// Thin lines with soft sides.
@@ -208,7 +209,8 @@ fn mesh(threads: &[(usize, Thread)]) -> Mesh {
     let largest = threads.iter().map(|(_, thread)| thread.contribution).fold(0.0, f32::max);
     let mut mesh = Mesh::default();
     for (side, thread) in threads {
-        let colour = [theme::LIGHT, theme::EYE, theme::CONNECTION][*side].gamma_multiply(opacity(thread.contribution / largest));
+        let colour =
+            [theme::LIGHT, theme::EYE, theme::CONNECTION][*side].gamma_multiply(opacity(thread.contribution / largest, threads.len()));
         let [a, b] = thread.line;
         let across = (b - a).normalized().rot90();
         let first = mesh.vertices.len() as u32;
@@ -262,6 +264,7 @@ mod tests {
         let lets = |filter: SampleFilter, s, t| filter.lets(Strategy::new(s, t), selected);
         assert!(lets(all, 2, 2) && lets(one, 1, 3) && !lets(one, 1, 2) && lets(role, 1, 5) && !lets(role, 2, 2));
         assert!(lets(long, 2, 3) && !lets(long, 1, 3));
-        assert_eq!([opacity(1.0), opacity(1e-9)], [0.86, 0.06]);
+        assert_eq!([opacity(1.0, 1), opacity(1e-9, 1)], [0.85, 0.04]);
+        assert!(opacity(1.0, 5000) < opacity(1.0, 500) && opacity(0.01, 500) < opacity(0.1, 500));
     }
 }

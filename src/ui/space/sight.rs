@@ -23,13 +23,19 @@ const OFF: f32 = 1e-3;
 const MOST_KEPT: usize = 1 << 14;
 
 /// What answers depend on.
-#[derive(Clone, Debug, PartialEq)]
 struct Key {
-    scene: usize,
+    scene: Arc<Scene>,
     eye: Vec3,
     axis: Vec3,
     places: [Rect; 2],
     cull: bool,
+}
+
+impl Key {
+    fn is(&self, other: &Self) -> bool {
+        let rest = |key: &Self| (key.eye, key.axis, key.places, key.cull);
+        Arc::ptr_eq(&self.scene, &other.scene) && rest(self) == rest(other)
+    }
 }
 
 /// The ends of a line, as bits; of a point, twice the same.
@@ -62,13 +68,13 @@ impl<'a> Sight<'a> {
     /// The view through `projector`; with `cull` it leaves out what faces away. `render` is the rendered camera.
     pub fn new(scene: &'a Arc<Scene>, projector: Projector, render: View, cull: bool, answers: &'a mut Answers) -> Self {
         let key = Key {
-            scene: Arc::as_ptr(scene) as usize,
+            scene: Arc::clone(scene),
             eye: projector.view().position,
             axis: projector.view().axis,
             places: [projector.image, projector.clip],
             cull,
         };
-        if answers.key.as_ref() != Some(&key) || answers.lines.borrow().len() > MOST_KEPT {
+        if !answers.key.as_ref().is_some_and(|old| old.is(&key)) || answers.lines.borrow().len() > MOST_KEPT {
             answers.lines.borrow_mut().clear();
             answers.key = Some(key);
         }
@@ -107,8 +113,9 @@ impl<'a> Sight<'a> {
     fn is_drawn(&self, hit: &Hit, eye: Vec3, hides: bool) -> bool {
         let triangle = &self.scene.triangles[hit.triangle as usize];
         let n = (triangle.p1 - triangle.p0).cross(triangle.p2 - triangle.p0);
-        let glass = matches!(self.scene.materials[triangle.material as usize].kind, DIELECTRIC | THIN_DIELECTRIC);
-        !(self.cull && n.dot(eye - triangle.p0) < 0.0) && !(hides && glass) && self.scene.opacity(hit) >= 0.5
+        let glass = || matches!(self.scene.materials[triangle.material as usize].kind, DIELECTRIC | THIN_DIELECTRIC);
+        let left_out = (self.cull && n.dot(eye - triangle.p0) < 0.0) || (hides && glass());
+        !left_out && self.scene.opacity(hit) >= 0.5
     }
 
     /// Does a surface stand before the point (m, relative to the scene's origin)?

@@ -9,16 +9,42 @@ use crate::ui::text::SpaceText;
 use crate::ui::theme;
 use eframe::egui::{Color32, Painter, Pos2, Rect, TextureId, Ui, pos2};
 use eframe::egui_wgpu::RenderState;
-use eframe::wgpu::FilterMode;
+use eframe::wgpu::{DeviceType, FilterMode};
 use std::time::Duration;
+use web_time::Instant;
 
 /// A pass spends so much on the upload of a large scene.
 const UPLOAD: Duration = Duration::from_millis(4);
+
+/// More triangles than this are too many for a processor to draw in every pass of a view that moves.
+const MANY: usize = 150_000;
+/// Then they follow when it has been at rest for so long.
+const REST: Duration = Duration::from_millis(200);
 
 /// The raster, and the name its picture has in the window.
 pub struct Surfaces {
     raster: Raster,
     texture: Option<TextureId>,
+    /// Is the device a processor?
+    software: bool,
+    /// What was to be drawn last, and since when.
+    wanted: Option<(Shot, Instant)>,
+}
+
+impl Surfaces {
+    fn new(gpu: &RenderState) -> Self {
+        let software = gpu.adapter.get_info().device_type == DeviceType::Cpu;
+        Self { raster: Raster::new(&gpu.device, &gpu.queue), texture: None, software, wanted: None }
+    }
+
+    /// How long to wait until the view rests, if it moves and there is too much to draw.
+    fn wait(&mut self, shot: &Shot, triangles: usize) -> Option<Duration> {
+        if self.wanted.as_ref().is_none_or(|(old, _)| old != shot) {
+            self.wanted = Some((*shot, Instant::now()));
+        }
+        let rested = self.wanted.as_ref().map_or(REST, |(_, since)| since.elapsed());
+        (self.software && triangles > MANY).then(|| REST.saturating_sub(rested)).filter(|left| !left.is_zero())
+    }
 }
 
 /// Shows the surfaces, or says why there are none.
@@ -30,14 +56,20 @@ pub fn show(
     (kept, gpu): (&mut Option<Surfaces>, Option<&RenderState>),
 ) -> Option<SpaceText> {
     let Some(gpu) = gpu else { return Some(SpaceText::NoAdapter) };
-    let Surfaces { raster, texture } = kept.get_or_insert_with(|| Surfaces { raster: Raster::new(&gpu.device, &gpu.queue), texture: None });
+    let surfaces = kept.get_or_insert_with(|| Surfaces::new(gpu));
+    let shot = shot(ui, cull, projector, job);
+    if let Some(left) = surfaces.wait(&shot, job.scene.triangles.len()) {
+        ui.ctx().request_repaint_after(left);
+        return Some(SpaceText::Resting);
+    }
+    let Surfaces { raster, texture, .. } = surfaces;
     if !raster.load(&job.scene, UPLOAD) {
         ui.ctx().request_repaint();
     }
     if raster.refuses(&job.scene) {
         return Some(SpaceText::TooLarge);
     }
-    if raster.draw(&shot(ui, cull, projector, job))
+    if raster.draw(&shot)
         && let Some(view) = raster.view()
     {
         let mut renderer = gpu.renderer.write();

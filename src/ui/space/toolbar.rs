@@ -6,7 +6,8 @@ use crate::ui::live::Live;
 use crate::ui::state::{Maximised, State};
 use crate::ui::text::{SpaceText, fill};
 use crate::ui::widgets::labelled;
-use eframe::egui::{Button, ComboBox, Label, RichText, Sense, Slider, Ui};
+use eframe::egui::containers::menu::{MenuButton, MenuConfig};
+use eframe::egui::{Button, DragValue, IntoAtoms, Label, PopupCloseBehavior, RichText, Sense, Slider, SliderClamping, Ui};
 
 /// Most samples that are drawn at once.
 const MOST: u32 = 256;
@@ -26,9 +27,9 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     let samples =
         if count == 0 { state.say(SpaceText::Samples).to_owned() } else { fill(state.say(SpaceText::SamplesOf), &[&count.to_string()]) };
     let help = state.say(SpaceText::HelpSamples);
-    ui.menu_button(samples, |ui| samples_menu(ui, state, live)).response.on_hover_text(help);
+    menu(samples).ui(ui, |ui| samples_menu(ui, state, live)).0.on_hover_text(help);
     let help = state.say(SpaceText::HelpView);
-    ui.menu_button(state.say(SpaceText::View), |ui| view_menu(ui, state)).response.on_hover_text(help);
+    menu(state.say(SpaceText::View)).ui(ui, |ui| view_menu(ui, state)).0.on_hover_text(help);
     let alone = state.maximised == Maximised::Space;
     let button = Button::new(state.say(SpaceText::Maximise)).selected(alone);
     if ui.add(button).on_hover_text(state.say(crate::ui::text::Text::HelpMaximise)).clicked() {
@@ -36,6 +37,11 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     }
     let mouse = Label::new(RichText::new(state.say(SpaceText::Mouse)).weak()).sense(Sense::hover());
     ui.add(mouse).on_hover_text(state.say(SpaceText::HelpMouse));
+}
+
+/// A menu that stays open while things are chosen in it.
+fn menu<'a>(name: impl IntoAtoms<'a>) -> MenuButton<'a> {
+    MenuButton::new(name).config(MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside))
 }
 
 fn view_menu(ui: &mut Ui, state: &mut State) {
@@ -57,32 +63,27 @@ fn samples_menu(ui: &mut Ui, state: &mut State, live: &Live) {
     let longest = live.engine().map_or(1, |engine| engine.job().settings.max_edges);
     let filter = &mut state.space.samples;
     labelled(ui, say(SpaceText::SampleCount), say(SpaceText::HelpSampleCount), |ui| {
-        ui.add(Slider::new(&mut filter.count, 0..=MOST).logarithmic(true).clamping(eframe::egui::SliderClamping::Always))
+        ui.add(Slider::new(&mut filter.count, 0..=MOST).logarithmic(true).clamping(SliderClamping::Always))
     });
     let which = [
         (Which::All, say(SpaceText::AllStrategies)),
         (Which::Selected, say(SpaceText::SelectedStrategy)),
         (Which::Role, say(SpaceText::SelectedRole)),
     ];
-    let label = ui.label(say(SpaceText::SampleStrategies));
-    let chosen = which.iter().find(|(which, _)| *which == filter.which).map_or("", |(_, name)| name);
-    let response = ComboBox::from_id_salt("samples of").selected_text(chosen).show_ui(ui, |ui| {
-        for (value, name) in which {
-            ui.selectable_value(&mut filter.which, value, name);
-        }
+    ui.label(say(SpaceText::SampleStrategies)).on_hover_text(say(SpaceText::HelpSampleStrategies));
+    for (value, name) in which {
+        ui.radio_value(&mut filter.which, value, name).on_hover_text(say(SpaceText::HelpSampleStrategies));
+    }
+    let mut length = filter.length.unwrap_or(0);
+    labelled(ui, say(SpaceText::SampleLength), say(SpaceText::HelpSampleLength), |ui| {
+        let any = |value: f64, _| if value == 0.0 { say(SpaceText::AnyLength).to_owned() } else { value.to_string() };
+        let read = |text: &str| if text == say(SpaceText::AnyLength) { Some(0.0) } else { text.trim().parse().ok() };
+        ui.add(DragValue::new(&mut length).range(0..=longest).speed(0.1).custom_formatter(any).custom_parser(read))
     });
-    response.response.labelled_by(label.id).on_hover_text(say(SpaceText::HelpSampleStrategies));
-    let label = ui.label(say(SpaceText::SampleLength));
-    let name = |length: Option<u32>| length.map_or(say(SpaceText::AnyLength).to_owned(), |k| k.to_string());
-    let response = ComboBox::from_id_salt("samples long").selected_text(name(filter.length)).show_ui(ui, |ui| {
-        for value in std::iter::once(None).chain((1..=longest).map(Some)) {
-            ui.selectable_value(&mut filter.length, value, name(value));
-        }
-    });
-    response.response.labelled_by(label.id).on_hover_text(say(SpaceText::HelpSampleLength));
+    filter.length = (length > 0).then_some(length);
     let sides = [SpaceText::SideLight, SpaceText::SideEye, SpaceText::SideConnection];
     for (flag, text) in filter.sides.iter_mut().zip(sides) {
-        ui.checkbox(flag, say(text));
+        ui.checkbox(flag, say(text)).on_hover_text(say(SpaceText::HelpSides));
     }
     ui.label(RichText::new(say(SpaceText::SampleScale)).small().weak());
 }

@@ -1,7 +1,6 @@
 //! The texts of the 3-D view.
 
 texts! { SpaceText;
-    Title: "3-D view", "三维视图";
     CanvasName: "3-D view, vertex {} of strategy {} selected", "三维视图，已选顶点 {}，策略 {}";
     Frame: "Frame", "取景";
     HelpFrame: "Move the view to the selected vertex; again, to the whole path. F does the same while the pointer is here. (A double click on a vertex frames that one.)", "把视图移到所选顶点；再按一次则取整条路径。指针在此处时按 F 键作用相同。（双击某个顶点即对准它。）";
@@ -25,7 +24,8 @@ texts! { SpaceText;
     SideLight: "edges from the light", "光源一侧的边";
     SideEye: "edges from the eye", "视线一侧的边";
     SideConnection: "connections", "连接边";
-    SampleScale: "Opacity: contribution, a tenth fainter per quarter of the range (4 decades)", "不透明度：贡献的对数，范围为 4 个数量级";
+    HelpSides: "Which edges of these paths are drawn", "绘制这些路径的哪些边";
+    SampleScale: "Opacity: logarithm of the contribution, over 4 decades", "不透明度：贡献的对数，跨 4 个数量级";
     View: "View", "视图";
     HelpView: "What is drawn in space, and how the view behaves", "三维视图中显示的内容及其行为";
     Cull: "see into rooms", "看进房间";
@@ -40,6 +40,7 @@ texts! { SpaceText;
     Mouse: "Mouse?", "鼠标？";
     HelpMouse: "Drag: orbit · Shift+drag or middle button: pan · wheel: nearer, farther · right drag: look round, with W A S D Q E: fly (Shift: faster)\nClick: select a vertex or an edge · double click: frame the vertex · Ctrl+click on a surface: select the pixel that shows it\nKeyboard, with the focus here: arrows orbit, + and − go nearer and farther", "拖动：环绕 · Shift+拖动或中键：平移 · 滚轮：远近 · 右键拖动：环顾，同时按 W A S D Q E：飞行（Shift 加速）\n单击：选择顶点或边 · 双击：对准顶点 · 在表面上 Ctrl+单击：选择显示该处的像素\n键盘（焦点在此处）：方向键环绕，+ 和 − 调整远近";
     NoAdapter: "surfaces are not drawn: there is no graphics device for them", "未绘制表面：没有可用的图形设备";
+    Resting: "surfaces follow when the view rests: there are many, and the processor draws them", "视图静止后再绘制表面：表面很多，而且由处理器绘制";
     TooLarge: "surfaces are not drawn: the graphics device has no room for this scene", "未绘制表面：图形设备容纳不下此场景";
     TipSubpath: "{} · {}", "{} · {}";
     TipConnection: "{}: joins {} and {}", "{}：连接 {} 与 {}";
