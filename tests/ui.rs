@@ -25,6 +25,8 @@ mod inspect;
 mod layout;
 #[path = "ui/lens.rs"]
 mod lens;
+#[path = "ui/look_inspect.rs"]
+mod look_inspect;
 #[path = "ui/measure.rs"]
 mod measure;
 #[path = "ui/numbers.rs"]
