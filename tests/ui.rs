@@ -33,6 +33,8 @@ mod measure;
 mod numbers;
 #[path = "ui/renderer.rs"]
 mod renderer;
+#[path = "ui/saving.rs"]
+mod saving;
 #[path = "ui/scenes.rs"]
 mod scenes;
 #[path = "ui/screenshots.rs"]

@@ -2,7 +2,7 @@
 
 pub use super::checks::ChecksState;
 pub use super::edit::EditState;
-pub use super::export::ExportState;
+pub use super::export::{ExportState, What};
 pub use super::inspector::{Bars, InspectState};
 pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};
 pub use super::space::SpaceState;
