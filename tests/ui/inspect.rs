@@ -176,7 +176,8 @@ fn the_selected_vertex_shows_everything_and_is_copied_as_json() {
     let copied: serde_json::Value = serde_json::from_str(&copied).expect("JSON");
     let record = record(&window);
     let entry = record.strategies.iter().find(|x| x.strategy() == strategy).expect("a record");
-    assert_eq!(copied, serde_json::to_value(&entry.vertices[hit.vertex]).expect("JSON"));
+    let printed = serde_json::to_string(&entry.vertices[hit.vertex]).expect("JSON");
+    assert_eq!(copied, serde_json::from_str::<serde_json::Value>(&printed).expect("JSON"));
     // Stepping, by button and by key.
     click(&mut window, Role::Button, "x₂ →");
     assert_eq!(window.state().state().selection.vertex, 2);

@@ -107,6 +107,10 @@ fn expected(json: &Value, place: &str) -> Vec<f64> {
 
 /// What is wrong with a number on the screen, if anything.
 fn wrong(json: &Value, shown: &Shown) -> Option<String> {
+    let pointer = shown.place.split_once(':').map_or(&*shown.place, |(_, pointer)| pointer);
+    if json.pointer(pointer.trim_end_matches("/*/weight")).is_none() {
+        return Some(format!("{} is nowhere in the JSON", shown.place));
+    }
     let (expected, found) = (expected(json, &shown.place), parse(&shown.text));
     let fault = |why: &str| Some(format!("{}: {:?} on the screen, {expected:?} in the JSON: {why}", shown.place, shown.text));
     // Three equal channels are one number; "4 of 27" has the count first; what is not there is a dash or a word.
