@@ -33,6 +33,8 @@ mod layout;
 mod lens;
 #[path = "ui/looks.rs"]
 mod looks;
+#[path = "ui/look_inspect.rs"]
+mod look_inspect;
 #[path = "ui/measure.rs"]
 mod measure;
 #[path = "ui/numbers.rs"]
@@ -41,6 +43,8 @@ mod numbers;
 mod random;
 #[path = "ui/renderer.rs"]
 mod renderer;
+#[path = "ui/saving.rs"]
+mod saving;
 #[path = "ui/scenes.rs"]
 mod scenes;
 #[path = "ui/screenshots.rs"]

@@ -3,7 +3,7 @@
 pub use super::checks::{Ask, ChecksState};
 pub use super::compare::{CompareState, Mode as CompareMode, Source};
 pub use super::edit::EditState;
-pub use super::export::ExportState;
+pub use super::export::{ExportState, What};
 pub use super::image_view::ViewState;
 pub use super::inspector::{Bars, InspectState};
 pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};

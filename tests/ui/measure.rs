@@ -97,3 +97,38 @@ fn the_window_beside_a_rendering_gpu() {
     println!("drawn and read back: median {:?}, 95 % {:?}, worst {:?}", drawn[100], drawn[190], drawn[199]);
     println!("{:?}", window.state().live().frame().map(|frame| (frame.stats.backend.clone(), frame.stats.ms_per_dispatch)));
 }
+
+/// A measurement: from the selection of a path (pixel, sample, strategy, vertex) to the end of the pass that shows it on each page of
+/// the inspector, at 512², K = 6, while rendering goes on. `cargo test --release --test ui -- --ignored --nocapture selecting`
+#[test]
+#[ignore = "a measurement"]
+fn selecting_a_path_on_every_page() {
+    use bdpt_explorer::ui::state::{Tab, Walk};
+    let mut window = rendering();
+    for (tab, walk) in [
+        (Tab::Strategies, Walk::Full),
+        (Tab::Path, Walk::Full),
+        (Tab::Path, Walk::Light),
+        (Tab::Path, Walk::Eye),
+        (Tab::Splits, Walk::Full),
+    ] {
+        let state = window.state_mut().state_mut();
+        (state.prefs.tab, state.walk) = (tab, walk);
+        window.run_steps(3);
+        let mut times: Vec<Duration> = (0..100u32)
+            .map(|i| {
+                let began = Instant::now();
+                let state = window.state_mut().state_mut();
+                (state.selection.pixel, state.selection.sample) = ([i * 4 + 20, i * 3 + 40], i);
+                let k = 1 + i % 6;
+                state.select_strategy(Strategy::new(i % (k + 1), k + 1 - i % (k + 1)));
+                state.selection.vertex = (i % (k + 1)) as usize;
+                window.step();
+                assert_eq!(window.state().live().record(window.state().state()).expect("a record").sample, i);
+                began.elapsed()
+            })
+            .collect();
+        times.sort();
+        println!("{tab:?} {walk:?}: median {:?}, 95 % {:?}, worst {:?}", times[50], times[95], times[99]);
+    }
+}

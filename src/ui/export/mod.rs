@@ -82,7 +82,9 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
 }
 
 fn menu(ui: &mut Ui, state: &mut State, live: &Live) {
-    ui.set_min_width(WIDTH);
+    ui.set_width(WIDTH);
+    // Only what is chosen looks chosen; what does something looks like a button.
+    ui.visuals_mut().button_frame = true;
     if cfg!(target_arch = "wasm32") {
         ui.label(state.say(ExportText::NotInBrowser));
         return;

@@ -51,7 +51,7 @@ pub fn show(ui: &mut Ui, state: &State, card: &Card<'_>) -> Response {
                     ui.add(Label::new(RichText::new(state.say(InspectText::WordsShines)).small()).wrap());
                 }
             }
-            let grid = Grid::new(("card", &card.title)).num_columns(2).min_col_width(64.0).spacing(vec2(10.0, 2.0));
+            let grid = Grid::new(("card", &card.title)).num_columns(2).min_col_width(64.0).min_row_height(17.0).spacing(vec2(10.0, 2.0));
             grid.show(ui, |ui| rows(&mut Rows { ui, state, place: &card.place }, card));
         })
     });

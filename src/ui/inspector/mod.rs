@@ -45,6 +45,9 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     if !matches!(state.prefs.tab, Tab::Scene | Tab::Checks) {
         header(ui, state, live);
     }
+    if let (Tab::Path, Some(record)) = (state.prefs.tab, live.record(state).cloned()) {
+        path::head(ui, state, &record);
+    }
     ui.separator();
     ScrollArea::vertical().id_salt(("inspector", state.prefs.tab)).auto_shrink(false).show(ui, |ui| page(ui, state, live));
 }

@@ -13,14 +13,23 @@ use crate::ui::text::{InspectText, Text, end_text, fill};
 use crate::ui::theme;
 use eframe::egui::{Button, RichText, Ui};
 
-/// Shows the page.
-pub fn show(ui: &mut Ui, state: &mut State, existence: &Existence, record: &PathRecord) {
+/// Shows what stays in sight above the page: which walk is listed, and the steps along the path.
+pub fn head(ui: &mut Ui, state: &mut State, record: &PathRecord) {
     ui.horizontal_wrapped(|ui| {
         for (walk, text) in [(Walk::Full, Text::WalkFull), (Walk::Light, Text::WalkLight), (Walk::Eye, Text::WalkEye)] {
             let label = state.say(text);
             ui.selectable_value(&mut state.walk, walk, label);
         }
     });
+    if state.walk == Walk::Full
+        && let Some(strategy) = record.strategies.iter().find(|x| x.strategy() == state.selection.strategy)
+    {
+        stepper(ui, state, strategy);
+    }
+}
+
+/// Shows the page.
+pub fn show(ui: &mut Ui, state: &mut State, existence: &Existence, record: &PathRecord) {
     match state.walk {
         Walk::Full => match record.strategies.iter().enumerate().find(|(_, x)| x.strategy() == state.selection.strategy) {
             Some(found) => full(ui, state, existence, found),
@@ -52,7 +61,6 @@ fn full(ui: &mut Ui, state: &mut State, existence: &Existence, (n, strategy): (u
     if let Some(why) = super::why_not(state, existence, strategy) {
         ui.label(RichText::new(why).weak());
     }
-    stepper(ui, state, strategy);
     let s = strategy.s as usize;
     let title = |index: usize| format!("{} = {}", indexed('x', index), own_name(strategy, index));
     let place = |index: usize| format!("/strategies/{n}/vertices/{index}");

@@ -249,11 +249,13 @@ fn tooltip(response: Response, state: &State, row: &Row<'_>) {
     response.on_hover_ui(|ui| {
         let name = full_name(Strategy::new(row.split.s, row.split.t), state.prefs.lang);
         ui.label(RichText::new(fill(state.say(InspectText::SpokenSplit), &[&name, &format::number(row.split.weight)])).strong());
-        for (text, value) in [
-            (Text::NumberUnweighted, row.split.contribution_unweighted.unwrap_or_default()),
-            (Text::NumberContribution, row.split.contribution),
+        let unweighted = row.split.contribution_unweighted.unwrap_or_default();
+        for (text, value, name) in [
+            (Text::NumberUnweighted, unweighted, "contribution_unweighted"),
+            (Text::NumberContribution, row.split.contribution, "contribution"),
         ] {
-            ui.label(RichText::new(format!("{}: {}", state.say(text), format::rgb_f64(value))).monospace());
+            let line = ui.label(RichText::new(format!("{}: {}", state.say(text), format::rgb_f64(value))).monospace());
+            cite(&line, || format!("{}/{name}", row.place));
         }
     });
 }

@@ -23,7 +23,7 @@ impl Columns {
     fn of(row: Rect) -> Self {
         let x = |fraction: f32| row.left() + 8.0 + (row.width() - 16.0) * fraction;
         let column = |from: f32, to: f32| Rect::from_min_max(pos2(x(from), row.top()), pos2(x(to) - 6.0, row.bottom()));
-        Self { role: column(0.0, 0.39), weight: column(0.39, 0.63), contribution: column(0.63, 0.83), raster: column(0.83, 1.02) }
+        Self { role: column(0.0, 0.39), weight: column(0.39, 0.59), contribution: column(0.59, 0.83), raster: column(0.83, 1.02) }
     }
 }
 

@@ -5,7 +5,6 @@ texts! { InspectText;
     CopyVertex: "Copy JSON", "复制 JSON";
     HelpCopyVertex: "Copy the selected vertex as it stands in inspect --json", "以 inspect --json 中的形式复制所选顶点";
     VertexOf: "vertex {} of {} … {}", "顶点 {}（{} … {}）";
-    HelpStepVertex: "Select this vertex", "选择此顶点";
     HelpNormalG: "Geometric normal (unit); of the lens the camera's axis, of a spot its axis", "几何法线（单位向量）；镜头处为相机轴，聚光灯处为其轴";
     HelpNormalS: "Shading normal (unit): interpolated, or from a normal map", "着色法线（单位向量）：由插值或法线贴图得到";
     Angle: "n_g to n_s", "n_g 与 n_s";
