@@ -8,7 +8,7 @@ use bdpt_explorer::ui::state::{ChosenEnvironment, Placement, Tab};
 use egui_kittest::wgpu::WgpuTestRenderer;
 
 /// The window drawn by an adapter, with fonts for Chinese where the machine has them.
-fn drawn(scene: Arc<Scene>, size: [f32; 2]) -> Harness<'static, App> {
+pub fn drawn(scene: Arc<Scene>, size: [f32; 2]) -> Harness<'static, App> {
     let start = Start { source: SceneSource::Ready(scene), size: [256, 256] };
     Harness::builder().with_size(egui::Vec2::from(size)).allow_missing_glyphs().renderer(WgpuTestRenderer::new()).build_eframe(|context| {
         let fonts = egui_system_font_provider::SystemFontProvider::new().with_locale(Some("zh-Hans"));
@@ -17,7 +17,7 @@ fn drawn(scene: Arc<Scene>, size: [f32; 2]) -> Harness<'static, App> {
     })
 }
 
-fn picture(window: &mut Harness<'static, App>, name: &str) -> image::RgbaImage {
+pub fn picture(window: &mut Harness<'static, App>, name: &str) -> image::RgbaImage {
     until(window, "a picture", |app| {
         app.live().frame().is_some_and(|f| f.stats.spp >= 2.0 && app.live().engine().is_some_and(|e| e.generation() == f.generation))
     });
