@@ -291,6 +291,36 @@ fn with_alt_the_hand_pans_and_dollies() {
 }
 
 #[test]
+fn while_the_camera_flies_letters_steer_it_and_do_nothing_else() {
+    let mut window = cornell();
+    window.state_mut().state_mut().edit.moving = true;
+    let scene = job(&window).scene;
+    let start = Pose::of(&scene, &scene.cameras[0]);
+    let at = window.state().on_screen([32, 32]);
+    let button = |pressed| egui::Event::PointerButton { pos: at, button: PointerButton::Secondary, pressed, modifiers: Modifiers::NONE };
+    let key = |key, pressed| egui::Event::Key { key, physical_key: None, pressed, repeat: false, modifiers: Modifiers::NONE };
+    window.hover_at(at);
+    window.event(button(true));
+    window.run_steps(1);
+    window.hover_at(at + egui::vec2(9.0, 0.0));
+    window.run_steps(1);
+    for pressed in [true, false] {
+        [Key::W, Key::E].into_iter().for_each(|name| window.event(key(name, pressed)));
+        window.run_steps(5);
+    }
+    window.event(button(false));
+    settle(&mut window);
+    let pose = window.state().state().pose.expect("flown");
+    let along = |axis: [f32; 3]| (0..3).map(|i| (pose.position[i] - start.position[i]) * f64::from(axis[i])).sum::<f64>();
+    assert!(along(start.axis) > 1e-3 && along(start.up) > 1e-3, "forwards and up: {pose:?}");
+    assert!(Vec3::from(pose.axis).dot(Vec3::from(start.right)) > 1e-3, "and it looks to the right");
+    assert_eq!(window.state().state().exposure, 0.0, "E is the flight's");
+    // Afterwards it is the exposure's again.
+    press(&mut window, Key::E);
+    assert_eq!(window.state().state().exposure, 0.5);
+}
+
+#[test]
 fn the_camera_has_numbers_and_views_to_come_back_to() {
     let mut window = page(scenes::point_and_mirror());
     type_number(&mut window, "front: Position x", "1");
