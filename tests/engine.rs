@@ -4,10 +4,16 @@
 use bdpt_explorer::bdpt::{Settings, Strategy, StrategySet};
 use bdpt_explorer::engine::{Crop, Engine, Frame, Job, Session, record};
 use bdpt_explorer::math::Vec3;
-use bdpt_explorer::scene::{Lens, builtin};
+use bdpt_explorer::scene::{Lens, Pose, builtin};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
+
+/// Where the first camera stands.
+fn pose() -> Pose {
+    let scene = job().scene;
+    Pose::of(&scene, &scene.cameras[0])
+}
 
 fn job() -> Job {
     let scene = Arc::new(builtin::open("cornell").unwrap());
@@ -53,6 +59,9 @@ fn jobs_that_cannot_run_are_refused_in_one_line() {
         (Job { lens: lens(0.1, 0.0), ..job() }, "focus distance 0.0 m"),
         (Job { lens: lens(0.1, 1e-30), ..job() }, "focus distance 1e-30 m"),
         (Job { lens: lens(0.1, f32::NAN), ..job() }, "focus distance NaN"),
+        (Job { pose: Some(Pose { yfov: f32::NAN, ..pose() }), ..job() }, "angle of view NaN"),
+        (Job { pose: Some(Pose { position: [f64::INFINITY; 3], ..pose() }), ..job() }, "away from the scene"),
+        (Job { pose: Some(Pose { up: [0.0; 3], ..pose() }), ..job() }, "camera pose: its axes"),
     ];
     // What cannot be told from a pinhole is one, and infinity is a place to focus on.
     assert!(!Job { lens: lens(1e-12, 1.0), ..job() }.view().has_lens());

@@ -9,7 +9,8 @@ use bdpt_explorer::engine::{Crop, Job};
 use bdpt_explorer::film::Film;
 use bdpt_explorer::gpu::{Gpu, Kernels, Layouts, Renderer, Specialisation, shader::Source};
 use bdpt_explorer::math::Vec3;
-use bdpt_explorer::scene::Scene;
+use bdpt_explorer::scene::edit::{self, LampEdit, MaterialEdit};
+use bdpt_explorer::scene::{Pose, Scene, SceneEdits};
 use pollster::block_on;
 use std::sync::Arc;
 use std::time::Duration;
@@ -73,6 +74,28 @@ fn the_same_seed_gives_the_same_picture() {
     // The control: another seed gives another picture.
     let other = |seed| work(scenes::builtin("cornell"), 24, Settings { seed, ..plain });
     assert!(agreement(&other(1), &other(1).on_gpu(gpu, 4).0, &other(2).on_cpu(4).0) < 0.7);
+}
+
+/// A scene with edits is one like any other: a lamp moved (its hierarchy only refitted), a wall made metal, a camera elsewhere.
+#[test]
+fn an_edited_scene_gives_the_same_picture() {
+    let Some(gpu) = gpu("an_edited_scene_gives_the_same_picture") else { return };
+    let file = scenes::builtin("cornell");
+    let lamp = LampEdit { name: file.lamps()[0].name.clone(), offset: Some([0.1, -0.2, 0.1]), size: Some(1.5), ..LampEdit::default() };
+    let metal = MaterialEdit { name: file.material_names[0].clone(), metallic: Some(1.0), roughness: Some(0.4), ..MaterialEdit::default() };
+    let edits = SceneEdits { lamps: [(0, lamp)].into(), materials: [(0, metal)].into(), ..SceneEdits::default() };
+    let edited = Arc::new(edit::apply(&file, &edits).unwrap());
+    assert!(edited.features.rough_metal && edited.triangles != file.triangles);
+    let pose = Pose::of(&edited, &edited.cameras[0]).shifted(0.05, 0.02, 0.1);
+    let mut work = work(edited, 24, Settings { max_edges: 5, ..Settings::default() });
+    work.job.pose = Some(pose);
+    let work = Work::new(work.job);
+    let agreement = |other: &Work| agreement(&work, &work.on_gpu(gpu, 4).0, &other.on_cpu(4).0);
+    let same = agreement(&work);
+    assert!(same > 0.995, "{same}");
+    // The control: the file's scene from there is another picture.
+    let unedited = Work::new(Job { scene: file, ..work.job.clone() });
+    assert!(agreement(&unedited) < 0.9);
 }
 
 /// Means of 16² blocks, [layer][block], over seeds.

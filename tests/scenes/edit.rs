@@ -334,7 +334,7 @@ fn edits_that_cannot_be_are_refused_in_one_sentence() {
         (on("wall", MaterialEdit { roughness: Some(3.0), ..m() }), "material 'wall': its roughness 3.0 must be 0 to 1"),
         (on("wall", MaterialEdit { color: Some([0.5, f32::NAN, 0.5]), ..m() }), "base colour NaN"),
         (on("wall", MaterialEdit { ior: Some(0.5), ..m() }), "index of refraction"),
-        (on("wall", MaterialEdit { emission_strength: Some(1e30), ..m() }), "strength"),
+        (on("wall", MaterialEdit { emission_strength: Some(1e31), ..m() }), "strength"),
         (on("wall", MaterialEdit { emission_strength: Some(f32::INFINITY), ..m() }), "strength"),
         (on("ball", MaterialEdit { roughness: Some(0.5), ..m() }), "clear glass"),
         (of(&|edits| drop(edits.materials.insert(0, material("nowhere")))), "no such material"),

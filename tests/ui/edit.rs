@@ -291,6 +291,36 @@ fn with_alt_the_hand_pans_and_dollies() {
 }
 
 #[test]
+fn while_the_camera_flies_letters_steer_it_and_do_nothing_else() {
+    let mut window = cornell();
+    window.state_mut().state_mut().edit.moving = true;
+    let scene = job(&window).scene;
+    let start = Pose::of(&scene, &scene.cameras[0]);
+    let at = window.state().on_screen([32, 32]);
+    let button = |pressed| egui::Event::PointerButton { pos: at, button: PointerButton::Secondary, pressed, modifiers: Modifiers::NONE };
+    let key = |key, pressed| egui::Event::Key { key, physical_key: None, pressed, repeat: false, modifiers: Modifiers::NONE };
+    window.hover_at(at);
+    window.event(button(true));
+    window.run_steps(1);
+    window.hover_at(at + egui::vec2(9.0, 0.0));
+    window.run_steps(1);
+    for pressed in [true, false] {
+        [Key::W, Key::E].into_iter().for_each(|name| window.event(key(name, pressed)));
+        window.run_steps(5);
+    }
+    window.event(button(false));
+    settle(&mut window);
+    let pose = window.state().state().pose.expect("flown");
+    let along = |axis: [f32; 3]| (0..3).map(|i| (pose.position[i] - start.position[i]) * f64::from(axis[i])).sum::<f64>();
+    assert!(along(start.axis) > 1e-3 && along(start.up) > 1e-3, "forwards and up: {pose:?}");
+    assert!(Vec3::from(pose.axis).dot(Vec3::from(start.right)) > 1e-3, "and it looks to the right");
+    assert_eq!(window.state().state().exposure, 0.0, "E is the flight's");
+    // Afterwards it is the exposure's again.
+    press(&mut window, Key::E);
+    assert_eq!(window.state().state().exposure, 0.5);
+}
+
+#[test]
 fn the_camera_has_numbers_and_views_to_come_back_to() {
     let mut window = page(scenes::point_and_mirror());
     type_number(&mut window, "front: Position x", "1");
@@ -402,14 +432,49 @@ fn every_control_of_the_page_has_a_name_in_both_languages() {
             window.state_mut().state_mut().prefs.lang = lang;
             window.run_steps(3);
             let titles: Vec<String> = window
-                .query_all_by_role(Role::Button)
+                .query_all_by_role(Role::DisclosureTriangle)
                 .filter_map(|node| node.accesskit_node().label())
-                .filter(|label| label.contains(" · "))
+                .filter(|label| label.contains(" · ") || label.contains("environment") || label.contains("环境"))
                 .collect();
             for title in titles {
                 open_item(&mut window, &title);
             }
             window.check_accessibility();
         }
+    }
+}
+
+/// Pictures of the page, to look at: with `BDPT_SCREENSHOT_DIR`, `cargo test --test ui edit::looks -- --ignored`.
+#[test]
+#[ignore = "makes pictures to look at"]
+fn looks() {
+    let sizes = [("1440", [1440.0, 900.0]), ("1280", [1280.0, 800.0]), ("1024", [1024.0, 768.0])];
+    for (name, lang, dark, size) in [
+        ("en-dark", Lang::En, true, sizes[0]),
+        ("zh-light", Lang::Zh, false, sizes[1]),
+        ("en-light", Lang::En, false, sizes[2]),
+        ("zh-dark", Lang::Zh, true, sizes[2]),
+    ] {
+        let mut window = screenshots::drawn(scenes::sky_and_sun(), size.1);
+        let state = window.state_mut().state_mut();
+        (state.prefs.lang, state.prefs.dark, state.prefs.tab) = (lang, dark, Tab::Scene);
+        state.prefs.space_open = false;
+        let json = r#"{"materials":{"1":{"name":"stuff","color":[0.2,0.5,0.3]}}}"#;
+        state.edit.edits = serde_json::from_str(json).expect("edits");
+        state.select_strategy(Strategy::new(1, 2));
+        state.selection.vertex = 1;
+        screenshots::picture(&mut window, &format!("edit-{name}-{}", size.0));
+        let state = window.state_mut().state_mut();
+        state.maximised = bdpt_explorer::ui::state::Maximised::Inspector;
+        window.run_steps(3);
+        let titles: Vec<String> = window
+            .query_all_by_role(Role::DisclosureTriangle)
+            .filter_map(|node| node.accesskit_node().label())
+            .filter(|label| label.contains(" · ") || label.contains("environment") || label.contains("环境"))
+            .collect();
+        for title in titles.iter().skip(1) {
+            open_item(&mut window, title);
+        }
+        screenshots::picture(&mut window, &format!("edit-all-{name}-{}", size.0));
     }
 }

@@ -52,8 +52,14 @@ impl Named<'_> {
 
 /// A thing that can be opened, with its rows.
 pub fn item(ui: &mut Ui, title: &str, changed: bool, open: bool, rows: impl FnOnce(&mut Ui)) {
-    let text = if changed { RichText::new(format!("{MARK} {title}")).color(theme::SELECTED).strong() } else { RichText::new(title) };
+    let text = if changed { marked(ui, title) } else { RichText::new(title) };
     CollapsingHeader::new(text).id_salt(title).default_open(open).show(ui, rows);
+}
+
+/// The name of something changed: in the colour of what is chosen, dark or light enough to be read.
+fn marked(ui: &Ui, name: &str) -> RichText {
+    let colour = ui.visuals().text_color().lerp_to_gamma(theme::SELECTED, 0.65);
+    RichText::new(format!("{MARK} {name}")).color(colour).strong()
 }
 
 /// Rows side by side.
@@ -65,7 +71,7 @@ pub fn grid(ui: &mut Ui, rows: impl FnOnce(&mut Ui)) {
 pub fn row(ui: &mut Ui, named: Named, changed: bool, control: impl FnOnce(&mut Ui, &str)) -> bool {
     let (name, spoken) = (named.name.in_language(named.lang), named.spoken());
     let help = named.help.in_language(named.lang);
-    let text = if changed { RichText::new(format!("{MARK} {name}")).color(theme::SELECTED).strong() } else { RichText::new(name).weak() };
+    let text = if changed { marked(ui, name) } else { RichText::new(name).weak() };
     ui.label(text).on_hover_text(help);
     let mut reset = false;
     ui.horizontal(|ui| {
