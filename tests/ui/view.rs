@@ -152,7 +152,7 @@ fn the_selected_pixel_has_a_mean_and_its_sample_a_value() {
     let of = |n: u32| (0..n).map(alone).sum::<Vec3>() / n as f32;
     let found = [spp.floor() as u32, spp.ceil() as u32].iter().any(|n| (of(*n) - mean).abs().max_element() <= 1e-4 * mean.max_element());
     assert!(found, "{mean} is the mean of no {spp} samples");
-    window.get_by_label(&written(mean));
+    assert!(has(&window, &format!("{}  ± ", written(mean))), "the mean with its interval");
     let sample = (0..200).find(|n| alone(*n).max_element() > 0.0).expect("a sample with light");
     window.state_mut().state_mut().selection.sample = sample;
     window.run_steps(3);
@@ -359,7 +359,7 @@ fn shift_peeks_at_b_and_x_flips() {
     click(&mut window, Role::Button, "Show B");
     hover(&mut window, [20, 41]);
     assert_eq!(under_pointer(&window, [20, 41]), written(a));
-    click(&mut window, Role::Button, "A ⇄ B");
+    click(&mut window, Role::Button, ViewText::Swap.in_language(Lang::En));
     hover(&mut window, [20, 41]);
     assert_eq!(under_pointer(&window, [20, 41]), written(b));
 }
@@ -449,6 +449,44 @@ fn the_tone_maps_and_compare_controls_have_names_in_both_languages() {
                 window.run_steps(4);
                 window.check_accessibility();
             }
+        }
+    }
+}
+
+#[test]
+fn beside_a_gpu_the_badge_says_whether_the_sample_is_the_one_rendered() {
+    let mut window = cornell();
+    assert!(!has(&window, "GPU = CPU") && !has(&window, "GPU ? CPU"), "the CPU renders: nothing to compare");
+    window.state_mut().state_mut().prefs.backend = engine::Backend::Gpu;
+    window.run_steps(2);
+    until(&mut window, "the next rendering", |app| {
+        app.live()
+            .engine()
+            .zip(app.live().frame())
+            .is_some_and(|(engine, frame)| engine.job().backend == engine::Backend::Gpu && engine.generation() == frame.generation)
+    });
+    let end = Instant::now() + Duration::from_secs(400);
+    loop {
+        window.step();
+        let stats = &window.state().live().frame().expect("a frame").stats;
+        if stats.backend == "gpu" {
+            break;
+        }
+        if let Some(why) = stats.fallback.clone() {
+            assert!(!skip::required("BDPT_REQUIRE_GPU"), "BDPT_REQUIRE_GPU=1, and {why}");
+            return skip::skipped("beside_a_gpu_the_badge_says_whether_the_sample_is_the_one_rendered", &why);
+        }
+        assert!(Instant::now() < end, "waited in vain for the GPU");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    for pixel in [[20, 41], [33, 12], [60, 60]] {
+        window.state_mut().state_mut().selection.pixel = pixel;
+        window.run_steps(2);
+        let answered = |window: &Harness<'static, App>| has(window, "GPU = CPU") || has(window, "GPU ≠ CPU");
+        while !answered(&window) {
+            window.step();
+            assert!(Instant::now() < end, "waited in vain for the comparison");
+            std::thread::sleep(Duration::from_millis(5));
         }
     }
 }

@@ -9,7 +9,6 @@ use super::super::widgets::{full_name, keep_together};
 use super::source::{name, rendered, short_name};
 use super::{Mode, Source};
 use crate::bdpt::Strategy;
-use crate::engine;
 use crate::film::difference::{Figures, Metric};
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{Button, ComboBox, Key, Label, PopupCloseBehavior, RichText, Role, TextEdit, Ui, WidgetInfo};
@@ -75,7 +74,7 @@ pub fn choose(ui: &mut Ui, state: &State, live: &Live, (label, help, current): (
         row(ui, Source::Image, state.say(ViewText::TheImage), &name(state, live, Source::Image));
         let selected = state.selection.strategy;
         if takes_part(state, live, selected) {
-            let source = Source::Strategy(selected, engine::Mode::Weighted);
+            let source = Source::Strategy(selected, state.study.mode);
             let words = fill(state.say(ViewText::SelectedStrategy), &[&full_name(selected, state.prefs.lang)]);
             row(ui, source, &words, &words);
         }

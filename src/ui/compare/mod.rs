@@ -9,12 +9,13 @@ pub use bar::{choose, metric_text, show, takes_part};
 pub use keeper::Keeper;
 pub use source::{Content, Missing, Source, Sourced, name, samples, short_name};
 
-use source::find;
+use source::{find, quantity};
 
 use super::live::Live;
 use super::state::State;
 use crate::film::difference::Metric;
 use crate::film::picture::Picture;
+use crate::film::scale::Scale;
 use crate::math::Vec3;
 use std::borrow::Cow;
 use std::path::PathBuf;
@@ -75,6 +76,8 @@ pub struct Kept {
     pub about: About,
     /// Itself.
     pub picture: Arc<Picture>,
+    /// The scale of its numbers, if it holds numbers instead of colours.
+    pub scale: Option<Scale>,
 }
 
 /// What a person chose to compare, and what was kept for it.
@@ -130,9 +133,9 @@ impl Default for CompareState {
 
 impl CompareState {
     /// Adds a picture, and lets the oldest go. What showed that one shows the image, or nothing, instead.
-    pub fn add(&mut self, about: About, picture: Arc<Picture>) -> u32 {
+    pub fn add(&mut self, about: About, picture: Arc<Picture>, scale: Option<Scale>) -> u32 {
         self.count += 1;
-        self.kept.push(Kept { id: self.count, about, picture });
+        self.kept.push(Kept { id: self.count, about, picture, scale });
         while self.kept.len() > MOST_KEPT {
             let id = self.kept.first().map_or(0, |oldest| oldest.id);
             self.remove(id);
@@ -225,6 +228,12 @@ impl Pair {
         Self { display: compare.display(), a: find(state, live, compare.a), b: compare.second().map(|b| find(state, live, b)) }
     }
 
+    /// Do A and B hold different quantities, so that they have no difference?
+    pub fn is_odd(&self, state: &State) -> bool {
+        let b = state.compare.second();
+        b.is_some_and(|b| quantity(state, state.compare.a) != quantity(state, b))
+    }
+
     /// The values that a pixel shows; `right`: of the line that splits the view. `None` where there is no picture.
     pub fn value(&self, pixel: [u32; 2], right: bool, metric: Metric) -> Option<Value> {
         let of = |x: &Result<Sourced, Missing>| x.as_ref().ok()?.content.value(pixel);
@@ -302,10 +311,10 @@ mod tests {
     fn the_oldest_of_nine_goes_and_nothing_shows_it_any_more() {
         let mut compare = CompareState::default();
         for _ in 0..MOST_KEPT {
-            compare.add(About::File("x".into()), picture());
+            compare.add(About::File("x".into()), picture(), None);
         }
         (compare.a, compare.b) = (Source::Kept(1), Some(Source::Kept(1)));
-        compare.add(About::File("y".into()), picture());
+        compare.add(About::File("y".into()), picture(), None);
         let ids: Vec<u32> = compare.kept.iter().map(|kept| kept.id).collect();
         assert_eq!(ids, (2..=9).collect::<Vec<_>>());
         assert_eq!((compare.a, compare.b), (Source::Image, None));
@@ -335,8 +344,8 @@ mod tests {
         compare.toggle();
         assert_eq!(compare.second(), None, "there is none");
         compare.toggle();
-        compare.add(About::File("x".into()), picture());
-        compare.add(About::File("y".into()), picture());
+        compare.add(About::File("x".into()), picture(), None);
+        compare.add(About::File("y".into()), picture(), None);
         compare.toggle();
         assert_eq!(compare.second(), Some(Source::Kept(2)));
     }

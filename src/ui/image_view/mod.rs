@@ -57,8 +57,9 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, desk: &mut Desk) -> Rec
     let darkroom = &mut desk.darkroom;
     ui.horizontal_wrapped(|ui| toolbar::show(ui, state, live));
     if state.compare.open {
-        let figures = darkroom.difference(state, &Pair::find(state, live)).and_then(|print| print.figures);
-        compare::show(ui, state, live, figures.filter(|_| state.compare.mode == compare::Mode::Difference));
+        let pair = Pair::find(state, live);
+        let print = (pair.display == Display::Difference).then(|| darkroom.difference(state, &pair)).flatten();
+        compare::show(ui, state, live, print.and_then(|print| print.figures));
     }
     if state.prefs.camera_open {
         camera_bar::show(ui, state, live);

@@ -67,6 +67,9 @@ fn sentences(state: &State, pair: &Pair, marked: usize) -> Vec<String> {
             Some(Missing::Coming) | None => {}
         }
     }
+    if pair.display == Display::Difference && pair.is_odd(state) {
+        sentences.push(state.say(ViewText::OtherQuantity).to_owned());
+    }
     if marked > 0 {
         sentences.push(fill(state.say(ViewText::Marked), &[&marked.to_string()]));
     }
