@@ -25,6 +25,12 @@ fn still(window: &mut Harness<'static, App>) {
     panic!("it goes on");
 }
 
+/// With room for the whole toolbar.
+fn wide(window: &mut Harness<'static, App>) {
+    window.state_mut().state_mut().prefs.space_open = false;
+    window.run_steps(3);
+}
+
 fn at(window: &Harness<'static, App>, [x, y]: [u32; 2]) -> Vec3 {
     let frame = window.state().live().frame().expect("a frame");
     frame.image[(y * frame.size[0] + x) as usize]
@@ -167,6 +173,7 @@ fn the_selected_pixel_has_a_mean_and_its_sample_a_value() {
 #[test]
 fn exposure_offset_and_tone_have_keys_fields_and_a_way_back() {
     let mut window = cornell();
+    wide(&mut window);
     still(&mut window);
     press(&mut window, Key::O);
     press(&mut window, Key::O);
@@ -195,6 +202,7 @@ fn exposure_offset_and_tone_have_keys_fields_and_a_way_back() {
 #[test]
 fn one_to_one_and_fit() {
     let mut window = cornell();
+    wide(&mut window);
     let width = |window: &Harness<'static, App>| window.state().on_screen([SIZE[0], 0]).x - window.state().on_screen([0, 0]).x;
     let fitted = width(&window);
     press(&mut window, Key::Z);
@@ -212,6 +220,7 @@ fn one_to_one_and_fit() {
 #[test]
 fn a_cell_opens_in_large_and_escape_returns() {
     let mut window = cornell();
+    wide(&mut window);
     let strategy = Strategy::new(2, 2);
     let name = |window: &Harness<'static, App>| {
         let cells = window.query_all_by_role(Role::Button).filter_map(|x| x.accesskit_node().label());
@@ -368,7 +377,8 @@ fn shift_peeks_at_b_and_x_flips() {
 fn a_kept_picture_survives_a_restart_and_waits_for_its_size() {
     let mut window = two_pictures();
     let before = kept(&window);
-    click(&mut window, Role::Button, "Restart");
+    window.state_mut().state_mut().restart = true;
+    window.run_steps(2);
     until(&mut window, "a pass", |app| app.live().first_pass().is_none());
     assert_eq!(kept(&window), before);
     assert!(has(&window, "A: image"));
@@ -435,6 +445,21 @@ fn a_reference_is_read_from_a_file_of_the_same_size() {
     hover(&mut window, [20, 41]);
     assert_eq!(under_pointer(&window, [20, 41]), written(Vec3::new((41 * 64 + 20) as f32, 0.5, 0.25)));
     assert!(has(&window, "B: reference.exr"));
+}
+
+#[test]
+fn a_narrow_view_keeps_the_rest_in_a_menu() {
+    let mut window = cornell();
+    window.set_size(egui::vec2(1100.0, 800.0));
+    window.run_steps(4);
+    assert!(window.query_by_role_and_label(Role::SpinButton, "Offset").is_none());
+    click(&mut window, Role::Button, "More");
+    type_number(&mut window, "Offset", "0.25");
+    assert_eq!(window.state().state().view.offset, 0.25, "and the menu stays open for the next");
+    click(&mut window, Role::Button, "1:1");
+    assert!(matches!(window.state().state().placement, Placement::Free { .. }));
+    click(&mut window, Role::CheckBox, Text::ShowLegend.in_language(Lang::En));
+    assert!(!window.state().state().prefs.shown.legend);
 }
 
 #[test]

@@ -35,8 +35,8 @@ const WIDE: f32 = 500.0;
 /// Shows it.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     let wide = ui.available_width() >= WIDE;
-    source(ui, state, live);
-    keep_together(ui, 190.0);
+    source(ui, state, live, wide);
+    keep_together(ui, 130.0);
     exposure(ui, state, live);
     if wide {
         open_large(ui, state, live);
@@ -46,6 +46,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
         return;
     }
     compare_button(ui, state);
+    camera_button(ui, state);
     // A click on a field must not close the menu.
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     let menu = MenuButton::new(state.say(ViewText::More)).config(config);
@@ -69,6 +70,7 @@ fn rest(ui: &mut Ui, state: &mut State) {
     tone(ui, state);
     ui.separator();
     places(ui, state);
+    camera_button(ui, state);
     compare_button(ui, state);
 }
 
@@ -81,13 +83,16 @@ fn places(ui: &mut Ui, state: &mut State) {
     if ui.button(state.say(ViewText::OneToOne)).on_hover_text(hint).clicked() {
         state.view.one_to_one = true;
     }
-    let label = state.say(Text::Camera);
-    ui.toggle_value(&mut state.prefs.camera_open, label).on_hover_text(Text::HelpCameraRow.in_language(state.prefs.lang));
     let alone = state.maximised == Maximised::Image;
     let button = Button::new(state.say(Text::Maximise)).selected(alone);
     if ui.add(button).on_hover_text(state.say(Text::HelpMaximise)).clicked() {
         state.maximised = if alone { Maximised::None } else { Maximised::Image };
     }
+}
+
+fn camera_button(ui: &mut Ui, state: &mut State) {
+    let label = state.say(Text::Camera);
+    ui.toggle_value(&mut state.prefs.camera_open, label).on_hover_text(Text::HelpCameraRow.in_language(state.prefs.lang));
 }
 
 fn compare_button(ui: &mut Ui, state: &mut State) {
@@ -98,9 +103,11 @@ fn compare_button(ui: &mut Ui, state: &mut State) {
 }
 
 /// Which picture is on show, and what of a strategy.
-fn source(ui: &mut Ui, state: &mut State, live: &Live) {
-    let help = state.say(ViewText::HelpSource);
-    let name = state.say(ViewText::ShowSource);
+fn source(ui: &mut Ui, state: &mut State, live: &Live, wide: bool) {
+    let (name, help) = (state.say(ViewText::ShowSource), state.say(ViewText::HelpSource));
+    if wide {
+        ui.label(name);
+    }
     if let Some(source) = compare::choose(ui, state, live, (name, help, Some(state.compare.a))) {
         state.compare.a = source;
     }
