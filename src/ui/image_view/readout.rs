@@ -11,10 +11,10 @@ use super::Replayed;
 use crate::bdpt::PathRecord;
 use crate::film::picture::pixel_of;
 use crate::math::Vec3;
-use eframe::egui::{DragValue, RichText, Ui};
+use eframe::egui::{DragValue, Label, RichText, Ui};
 
 /// A view narrower than this has no room for words, points.
-const NARROW: f32 = 420.0;
+const NARROW: f32 = 440.0;
 /// A narrow view lower than this has no room for the numbers.
 const LOW: f32 = 300.0;
 
@@ -23,16 +23,18 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, replayed: &Replayed) {
     let [mut x, mut y] = state.selection.pixel;
     let [width, height] = state.size;
     let hint = keys::hint(state, Text::HelpPixel, Action::Nudge);
-    // A small view leaves its room to the image; the status bar has the value under the pointer.
-    let small = ui.available_width() < NARROW;
-    if !small {
+    let small = ui.max_rect().width() < NARROW;
+    if small {
+        keep_together(ui, 112.0);
+    } else {
+        keep_together(ui, 150.0);
         ui.label(state.say(Text::Pixel));
     }
     labelled(ui, "x", &hint, |ui| ui.add(DragValue::new(&mut x).range(0..=width.saturating_sub(1)).speed(0.2)));
     labelled(ui, "y", &hint, |ui| ui.add(DragValue::new(&mut y).range(0..=height.saturating_sub(1)).speed(0.2)));
     state.select_pixel(i64::from(x), i64::from(y));
     if small && ui.available_height() < LOW {
-        return;
+        return brief(ui, state, live, replayed);
     }
     if let Some((samples, mean)) = mean(state, live) {
         let name = fill(state.say(ViewText::MeanOf), &[&samples]);
@@ -78,6 +80,22 @@ fn judgement(state: &State, replayed: &Replayed) -> Option<(String, bool, String
             (say(ViewText::Replayed), false, fill(state.say(ViewText::HelpReplayed), &[&error]))
         }
     })
+}
+
+/// What a small view has room for: the mean, as far as the row goes, and the badge where it warns. The rest is told by the
+/// tooltip, and the sample by the inspector.
+fn brief(ui: &mut Ui, state: &State, live: &Live, replayed: &Replayed) {
+    if judgement(state, replayed).is_some_and(|(_, warning, _)| warning) {
+        badge(ui, state, replayed);
+    }
+    if let Some((samples, mean)) = mean(state, live)
+        && ui.available_size_before_wrap().x > 90.0
+    {
+        let name = fill(state.say(ViewText::MeanOf), &[&samples]);
+        let help = format!("{name} {mean}\n{}", state.say(ViewText::HelpMean));
+        let words = RichText::new(format!("{} {mean}", state.say(ViewText::Mean))).small();
+        ui.add(Label::new(words).truncate()).on_hover_text(help);
+    }
 }
 
 /// A name and its value, on one line together.

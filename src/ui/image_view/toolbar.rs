@@ -30,15 +30,16 @@ fn tone_name(state: &State, tonemap: ToneMap) -> &'static str {
 }
 
 /// A view narrower than this keeps what is used less in a menu, points.
-const WIDE: f32 = 500.0;
+pub const WIDE: f32 = 500.0;
 
 /// Shows it.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     let wide = ui.available_width() >= WIDE;
     source(ui, state, live, wide);
     keep_together(ui, 130.0);
-    exposure(ui, state, live);
+    exposure(ui, state);
     if wide {
+        auto(ui, state, live);
         open_large(ui, state, live);
         ui.separator();
         rest(ui, state);
@@ -52,7 +53,10 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     let menu = MenuButton::new(state.say(ViewText::More)).config(config);
     let (response, _) = menu.ui(ui, |ui| {
         ui.set_min_width(270.0);
-        open_large(ui, state, live);
+        ui.horizontal(|ui| {
+            auto(ui, state, live);
+            open_large(ui, state, live);
+        });
         ui.horizontal(|ui| tone(ui, state));
         ui.horizontal(|ui| offset(ui, state));
         ui.horizontal(|ui| places(ui, state));
@@ -138,12 +142,16 @@ fn open_large(ui: &mut Ui, state: &mut State, live: &Live) {
     }
 }
 
-fn exposure(ui: &mut Ui, state: &mut State, live: &Live) {
+fn exposure(ui: &mut Ui, state: &mut State) {
     let hint = keys::hint(state, Text::HelpExposure, Action::Exposure);
     let exposure = state.say(Text::Exposure);
     labelled(ui, exposure, &hint, |ui| {
         ui.add(DragValue::new(&mut state.exposure).range(-20.0..=20.0).speed(0.05).fixed_decimals(1).suffix(" EV"))
     });
+}
+
+/// Fits the exposure to what is on show.
+fn auto(ui: &mut Ui, state: &mut State, live: &Live) {
     if ui.button(state.say(ViewText::Auto)).on_hover_text(state.say(ViewText::HelpAuto)).clicked() {
         (state.exposure, state.view.offset) = (exposure_of(&Pair::find(state, live), state).clamp(-20.0, 20.0), 0.0);
     }

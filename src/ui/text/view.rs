@@ -20,6 +20,7 @@ texts! { ViewText;
     // Value under the pointer, of the selected pixel, of its sample.
     UnderPointer: "at {}, {}: {}", "{}, {} 处：{}";
     HelpUnderPointer: "What is shown under the pointer, as linear numbers: red, green, blue (W m⁻² sr⁻¹), or a single one.", "指针处所示的线性数值：红、绿、蓝（W m⁻² sr⁻¹），或单个数值。";
+    Mean: "mean", "平均";
     MeanOf: "mean of {} spp", "{} spp 的平均";
     HelpMean: "Mean radiance of the selected pixel so far, over all samples and without the strategies that are hidden: red, green, blue; W m⁻² sr⁻¹", "所选像素目前的平均辐射亮度（全部采样，不含隐藏的策略）：红、绿、蓝；W m⁻² sr⁻¹";
     SampleAlone: "sample {} alone", "单独的采样 {}";
