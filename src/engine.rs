@@ -15,6 +15,7 @@ mod frame;
 mod job;
 pub mod lobe;
 mod picture;
+mod probe;
 mod replay;
 mod session;
 mod stats;
@@ -27,23 +28,30 @@ pub use frame::{Frame, Thumbnail};
 pub use job::{Backend, FILM_BUDGET, Job, JobError, MAX_SIDE};
 pub use lobe::{Lobe, lobe};
 pub use picture::{Mode, Picture, Source, Values};
+pub use probe::Probe;
 pub use replay::{Answer, Comparison, Replayer, TOLERANCE, Which};
 pub use session::Session;
 pub use stats::{Notice, Stats};
 pub use study::{CellStudy, Landed, PixelStudy, Study, Wish};
 pub use surveyor::PIXEL_SAMPLES;
-pub use thread::Engine;
+pub use thread::{Engine, Layers};
 
 /// Re-runs one sample of one pixel: the very path the renderer used. Takes well under a millisecond.
 pub fn record(job: &Job, pixel: [u32; 2], sample: u32) -> Result<PathRecord, JobError> {
+    check_pixel(job, pixel)?;
+    let view = job.view();
+    Ok(PathRecord { pose: job.pose, ..record_sample(&Context::new(&job.scene, &view, &job.settings), pixel, sample) })
+}
+
+/// Can samples of this pixel be run again?
+fn check_pixel(job: &Job, pixel: [u32; 2]) -> Result<(), JobError> {
     // Only what the record depends on: a film is not needed.
     Job { weighted_layers: false, raw_layers: false, ..job.clone() }.check()?;
     if pixel[0] >= job.size[0] || pixel[1] >= job.size[1] {
         let [width, height] = job.size;
         return Err(JobError(format!("pixel {},{}: outside the {width}x{height} film (0,0 is its top left)", pixel[0], pixel[1])));
     }
-    let view = job.view();
-    Ok(record_sample(&Context::new(&job.scene, &view, &job.settings), pixel, sample))
+    Ok(())
 }
 
 /// How far away, along the axis, what a pixel shows is: the first hit of the ray from the middle of the lens through the

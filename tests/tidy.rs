@@ -26,7 +26,9 @@ const HOMES: &[(&str, &[&str])] = &[
     ("indicatif", &["cli/"]),
     ("obvhs", &["scene/bvh.rs"]),
     ("pollster", &["engine/"]),
-    ("rayon", &["bdpt/", "film/", "engine.rs", "engine/", "scene/gltf/images.rs"]),
+    ("rayon", &["bdpt/", "film/", "engine.rs", "engine/", "report/check/", "scene/gltf/images.rs"]),
+    ("rfd", &["ui/"]),
+    ("statrs", &["report/check/"]),
     ("wgpu", &["gpu/", "ui/"]),
     ("winit", &["ui/"]),
 ];

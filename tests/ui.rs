@@ -15,12 +15,18 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+#[path = "ui/checks.rs"]
+mod checks;
+#[path = "ui/edit.rs"]
+mod edit;
 #[path = "ui/existence.rs"]
 mod existence;
 #[path = "ui/gallery.rs"]
 mod gallery;
 #[path = "common/glb.rs"]
 mod glb;
+#[path = "ui/inspect.rs"]
+mod inspect;
 #[path = "ui/layout.rs"]
 mod layout;
 #[path = "ui/lens.rs"]
@@ -29,6 +35,8 @@ mod lens;
 mod looks;
 #[path = "ui/measure.rs"]
 mod measure;
+#[path = "ui/numbers.rs"]
+mod numbers;
 #[path = "ui/random.rs"]
 mod random;
 #[path = "ui/renderer.rs"]

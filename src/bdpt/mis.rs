@@ -26,7 +26,11 @@ pub fn log_densities(path: &FullPath) -> Vec<f64> {
 
 /// w_s for s = 0…k+1 by the definition; all zero if no active strategy can make the path. `active` says which take part.
 pub fn mis_weights_by_definition(path: &FullPath, active: &[bool], heuristic: &Heuristic) -> Vec<f64> {
-    let ln_p = log_densities(path);
+    weights_of_log_densities(&log_densities(path), active, heuristic)
+}
+
+/// The same from ln p_s alone: whoever has the densities needs no path to weigh it otherwise.
+pub fn weights_of_log_densities(ln_p: &[f64], active: &[bool], heuristic: &Heuristic) -> Vec<f64> {
     let largest = ln_p.iter().zip(active).filter(|(_, a)| **a).map(|(p, _)| *p).fold(f64::NEG_INFINITY, f64::max);
     if largest == f64::NEG_INFINITY {
         return vec![0.0; ln_p.len()];

@@ -10,6 +10,7 @@ use super::reason::Reason;
 use super::settings::Heuristic;
 use super::strategy::Strategy;
 use super::vertex::End;
+use crate::scene::Pose;
 use serde::{Serialize, Serializer};
 
 /// In what a density is measured.
@@ -31,10 +32,28 @@ pub struct LookRecord {
     pub color: [f32; 3],
     /// Roughness; α of GGX is its square.
     pub roughness: f32,
+    /// α of GGX; `None` where the model has no rough component.
+    pub ggx_alpha: Option<f32>,
     /// Share of the metal.
     pub metallic: f32,
+    /// Index of refraction, inside over outside; `None` of what is no dielectric.
+    pub ior: Option<f32>,
+    /// Reflectance of a coat at normal incidence; `None` without a coat.
+    pub coat_f0: Option<[f32; 3]>,
     /// a(x), the probability that the surface is there.
     pub opacity: f32,
+}
+
+/// The edge between two neighbouring vertices of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct EdgeRecord {
+    /// Its length, m; `None` if one end is infinitely far away.
+    pub length: Option<f32>,
+    /// The unit vector along it, from the vertex before to the vertex after.
+    pub direction: [f32; 3],
+    /// G without V, m⁻² (without the cosine at a point light; to a vertex at infinity |cosθ| of the other end, a pure number);
+    /// `None` where it is no finite number: the two coincide.
+    pub geometry_term: Option<f32>,
 }
 
 /// A vertex as it is reported.
@@ -54,12 +73,23 @@ pub struct VertexRecord {
     pub light_name: Option<String>,
     /// The material's name in the file; `None` where there is no surface.
     pub material: Option<String>,
+    /// The material's number in the scene.
+    #[serde(skip)]
+    pub material_index: Option<u32>,
+    /// The light's number in the scene, if it lies on one.
+    #[serde(skip)]
+    pub light_index: Option<u32>,
     /// The material's model.
     pub model: Option<&'static str>,
     /// What the material looks like here; `None` where there is no surface.
     pub look: Option<LookRecord>,
     /// Does it lie on a light?
     pub emitter: bool,
+    /// What its light emits here: radiance, W m⁻² sr⁻¹ (area, environment); greatest intensity, W sr⁻¹ (point, spot);
+    /// irradiance, W m⁻² (directional).
+    pub emission: Option<[f32; 3]>,
+    /// The edge from the vertex before it in its list; `None` at the first.
+    pub edge: Option<EdgeRecord>,
     /// α of the subpath up to here.
     pub alpha: [f32; 3],
     /// Density of this vertex by its own subpath.
@@ -144,6 +174,10 @@ pub struct SplitRecord {
     pub reason_text: Option<&'static str>,
     /// w_{s,t} by its definition.
     pub weight: f64,
+    /// C* = f/(n p_{s,t}) of this very path; `None` where the strategy cannot sample it (or no number of 64 bits holds it).
+    pub contribution_unweighted: Option<[f64; 3]>,
+    /// w C*: what the strategy adds whenever it makes this very path.
+    pub contribution: [f64; 3],
 }
 
 /// One strategy of the sample.
@@ -204,6 +238,9 @@ pub struct PathRecord {
     pub scene: String,
     /// Camera.
     pub camera: String,
+    /// Where the camera was moved to; `None` = it stands where the file has it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pose: Option<Pose>,
     /// Pixel, from the top left.
     pub pixel: [u32; 2],
     /// Sample number.

@@ -4,6 +4,7 @@ use super::values::*;
 use crate::bdpt::{HeuristicKind, Strategy};
 use crate::engine::{Backend, Crop};
 use crate::film::tonemap::ToneMap;
+use crate::report::check::Check;
 use crate::scene::environment::EnvironmentSource;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgAction, Args, Parser, Subcommand};
@@ -27,6 +28,9 @@ pub enum Command {
     Render(RenderArgs),
     /// Show how one sample of one pixel was made: both subpaths, every strategy, its weight, its contribution
     Inspect(InspectArgs),
+    /// Is the image of a scene right? Paths rebuilt by every strategy, strategies against each other, known answers;
+    /// exit status 1 if a check fails
+    Check(CheckArgs),
 }
 
 #[derive(Args)]
@@ -79,6 +83,33 @@ pub struct InspectArgs {
     /// Everything, as JSON
     #[arg(long)]
     pub json: bool,
+    /// Write a diagram of the two subpaths and of every way to join them, with the brightest path in full
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Write the table of strategies as CSV
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Write the vertices of both subpaths and of every path as CSV
+    #[arg(long, value_name = "FILE")]
+    pub vertices_csv: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub struct CheckArgs {
+    #[command(flatten)]
+    pub estimator: Option<EstimatorArgs>,
+    /// Only these checks, by their names in --list
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = check_parser())]
+    pub only: Vec<Check>,
+    /// Thirty times the samples: minutes instead of seconds, and an adapter that runs on the processor counts as a GPU
+    #[arg(long)]
+    pub thorough: bool,
+    /// Everything, as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// List the checks, and what each means
+    #[arg(long, exclusive = true)]
+    pub list: bool,
 }
 
 /// What a path is made with: the same for `render` and `inspect`, so that both speak of the same samples.
@@ -163,6 +194,10 @@ fn heuristic_parser() -> impl TypedValueParser<Value = HeuristicKind> {
 fn backend_parser() -> impl TypedValueParser<Value = Backend> {
     PossibleValuesParser::new(Backend::ALL.map(Backend::name))
         .map(|name| Backend::ALL.into_iter().find(|backend| backend.name() == name).unwrap_or_default())
+}
+
+fn check_parser() -> impl TypedValueParser<Value = Check> {
+    PossibleValuesParser::new(Check::ALL.map(Check::id)).map(|id| Check::parse(&id).unwrap_or(Check::Replay))
 }
 
 fn tonemap_parser() -> impl TypedValueParser<Value = ToneMap> {

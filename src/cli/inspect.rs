@@ -1,26 +1,40 @@
-//! `inspect`: one sample of one pixel, as a table to read or as JSON.
+//! `inspect`: one sample of one pixel, as a table to read, as JSON, as tables for a spreadsheet, or as a diagram.
 
 use super::args::InspectArgs;
 use super::job::prepare;
+use super::render::same_file;
 use super::{Failure, print};
 use crate::bdpt::PathRecord;
 use crate::bdpt::record::{Measure, StrategyRecord, SubpathRecord, VertexRecord};
 use crate::bdpt::vertex::End;
 use crate::engine;
-use crate::report::role_name;
+use crate::film::save::{check_writable, save_bytes};
+use crate::report::{export, role_name};
 use std::fmt::Write;
+use std::path::PathBuf;
 
-/// Carries out `inspect`.
+/// Carries out `inspect`: writes the files that are asked for; the table where nothing else is.
 pub fn run(args: &InspectArgs) -> Result<(), Failure> {
+    let files: Vec<_> = [&args.svg, &args.csv, &args.vertices_csv].into_iter().flatten().collect();
+    for (i, path) in files.iter().enumerate() {
+        if files[..i].iter().any(|other| same_file(other, path)) {
+            return Err(Failure(format!("'{}' is named for two outputs; give each its own file", path.display())));
+        }
+        check_writable(path)?;
+    }
     let prepared = prepare(&args.estimator, false)?;
     let record = engine::record(&prepared.job, args.pixel, args.sample)?;
-    let text = if args.json {
-        let json = serde_json::to_string_pretty(&record).map_err(|error| Failure(format!("--json: {error}")))?;
-        format!("{json}\n")
+    let save = |path: &Option<PathBuf>, text: &dyn Fn() -> String| path.as_ref().map_or(Ok(()), |path| save_bytes(path, text().as_bytes()));
+    save(&args.svg, &|| export::diagram_svg(&record, export::brightest(&record)))?;
+    save(&args.csv, &|| export::strategies_csv(&record))?;
+    save(&args.vertices_csv, &|| export::vertices_csv(&record))?;
+    if args.json {
+        print(&export::record_json(&record).map_err(|error| Failure(format!("--json: {error}")))?);
+    } else if files.is_empty() {
+        print(&table(&record));
     } else {
-        table(&record)
-    };
-    print(&text);
+        files.iter().for_each(|path| print(&format!("wrote {}\n", path.display())));
+    }
     Ok(())
 }
 

@@ -1,8 +1,9 @@
 //! The command line: what the user asks, checked before any work, and answered in files and tables.
 //!
-//! Exit status 0, or 2 after exactly one line on stderr: `error: ` what is wrong, where, and what to do.
+//! Exit status 0, 1 if a check failed, or 2 after exactly one line on stderr: `error: ` what is wrong, where, and what to do.
 
 mod args;
+mod check;
 mod inspect;
 mod job;
 mod progress;
@@ -61,16 +62,14 @@ pub fn main(open_window: impl FnOnce(Option<String>) -> Result<(), NoWindow>) ->
         Err(error) => return refuse(&error),
     };
     let outcome = match (options.command, options.scene) {
-        (None, scene) => window(scene, open_window),
+        (None, scene) => window(scene, open_window).map(|()| ExitCode::SUCCESS),
         (Some(_), Some(word)) => Err(Failure(format!("'{word}' stands before the command; the command comes first, then its scene"))),
-        (Some(Command::Scenes), None) => scenes(),
-        (Some(Command::Render(args)), None) => render::run(&args),
-        (Some(Command::Inspect(args)), None) => inspect::run(&args),
+        (Some(Command::Scenes), None) => scenes().map(|()| ExitCode::SUCCESS),
+        (Some(Command::Render(args)), None) => render::run(&args).map(|()| ExitCode::SUCCESS),
+        (Some(Command::Inspect(args)), None) => inspect::run(&args).map(|()| ExitCode::SUCCESS),
+        (Some(Command::Check(args)), None) => check::run(&args),
     };
-    match outcome {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => fail(&failure),
-    }
+    outcome.unwrap_or_else(|failure| fail(&failure))
 }
 
 fn fail(failure: &Failure) -> ExitCode {

@@ -5,7 +5,7 @@ use crate::engine::Session;
 use crate::scene::Progress;
 use crate::scene::progress::Stage;
 use indicatif::{ProgressBar, ProgressStyle};
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering::Relaxed};
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::{Duration, Instant};
 
 /// When to stop: at so many samples per pixel, or when the time is over, whichever comes first.
@@ -17,22 +17,23 @@ pub struct Limit {
     pub time: Option<Duration>,
 }
 
-static INTERRUPTS: AtomicU32 = AtomicU32::new(0);
+/// Has Ctrl-C asked for an end?
+pub static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
-/// From now on Ctrl-C asks for an end instead of being one.
-fn listen() -> Result<(), Failure> {
-    let on_interrupt = || {
-        if INTERRUPTS.fetch_add(1, Relaxed) > 0 {
+/// From now on Ctrl-C asks for an end instead of being one; `answer` says what happens then.
+pub fn listen(answer: &'static str) -> Result<(), Failure> {
+    let on_interrupt = move || {
+        if INTERRUPTED.swap(true, Relaxed) {
             std::process::exit(130);
         }
-        eprintln!("\nstopping after this pass, then writing what is done (Ctrl-C again: at once, without writing)");
+        eprintln!("\n{answer}");
     };
     ctrlc::set_handler(on_interrupt).map_err(|error| Failure(format!("Ctrl-C cannot be handled here: {error}")))
 }
 
 /// Renders until `limit`; true if Ctrl-C ended it earlier.
 pub fn run(session: &mut Session, limit: Limit) -> Result<bool, Failure> {
-    listen()?;
+    listen("stopping after this pass, then writing what is done (Ctrl-C again: at once, without writing)")?;
     session.wait_for_renderer();
     session.set_limit(limit.spp.unwrap_or(u32::MAX));
     let start = Instant::now();
@@ -41,7 +42,7 @@ pub fn run(session: &mut Session, limit: Limit) -> Result<bool, Failure> {
         let (passes, elapsed) = (session.passes(), start.elapsed());
         show(&bar, session, limit, elapsed);
         let done = limit.spp.is_some_and(|spp| passes >= spp) || limit.time.is_some_and(|time| passes >= 1 && elapsed >= time);
-        let interrupted = INTERRUPTS.load(Relaxed) > 0 && passes >= 1 && session.pass_fraction() == 0.0;
+        let interrupted = INTERRUPTED.load(Relaxed) && passes >= 1 && session.pass_fraction() == 0.0;
         if done || interrupted {
             session.collect();
             // What a GPU could not hand over is rendered again.

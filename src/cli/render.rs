@@ -96,7 +96,7 @@ fn check_outputs(args: &RenderArgs) -> Result<(), Failure> {
 }
 
 /// Do two paths name the same regular file, whether or not it exists yet?
-fn same_file(a: &Path, b: &Path) -> bool {
+pub fn same_file(a: &Path, b: &Path) -> bool {
     let place = |path: &Path| {
         let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let folder = absolute.parent().and_then(|folder| folder.canonicalize().ok());

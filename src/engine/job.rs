@@ -4,7 +4,7 @@ use super::Crop;
 use crate::bdpt::render::Plan;
 use crate::bdpt::{Existence, MAX_EDGES, Settings};
 use crate::film::Film;
-use crate::scene::{Camera, Lens, Scene, View};
+use crate::scene::{Camera, Lens, Pose, Scene, View};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
@@ -51,6 +51,8 @@ pub struct Job {
     pub scene: Arc<Scene>,
     /// Index into the scene's cameras.
     pub camera: usize,
+    /// Where that camera stands; `None` = where the file has it.
+    pub pose: Option<Pose>,
     /// The lens; `None` = the camera's own.
     pub lens: Option<Lens>,
     /// Film size, pixels.
@@ -85,6 +87,7 @@ impl Job {
         Self {
             scene,
             camera: 0,
+            pose: None,
             lens: None,
             size: [512, 512],
             crop: None,
@@ -97,7 +100,13 @@ impl Job {
 
     /// The camera with its film.
     pub fn view(&self) -> View {
-        View::new(&self.scene, &Camera { lens: self.lens(), ..self.scene.cameras[self.camera].clone() }, self.size)
+        View::new(&self.scene, &self.posed_camera(), self.size)
+    }
+
+    /// The camera where it stands, with the lens it is rendered with.
+    pub fn posed_camera(&self) -> Camera {
+        let camera = Camera { lens: self.lens(), ..self.scene.cameras[self.camera].clone() };
+        self.pose.map_or(camera.clone(), |pose| pose.camera(&self.scene, &camera))
     }
 
     /// The lens it is rendered with. Where f32 could hardly tell its points apart, it is a pinhole.
@@ -125,6 +134,7 @@ impl Job {
         if self.camera >= self.scene.cameras.len() {
             return fail(format!("camera {}: the scene has {}", self.camera, self.scene.cameras.len()));
         }
+        self.pose.map_or(Ok(()), |pose| pose.check(&self.scene)).or_else(fail)?;
         self.scene.sphere.check_lens(self.lens()).or_else(fail)?;
         if let Some(c) = self.crop {
             let fits = |start: u32, length: u32, side: u32| length > 0 && start < side && length <= side - start;

@@ -16,12 +16,24 @@ use web_time::Instant;
 /// How long the thread renders before it looks for commands.
 const SLICE: Duration = Duration::from_millis(30);
 
+/// Every strategy's image at full size, for a file.
+#[derive(Clone, Debug)]
+pub struct Layers {
+    /// Which job they belong to.
+    pub generation: u64,
+    /// Size, pixels.
+    pub size: [u32; 2],
+    /// Names as in `pyramid.exr` ("weighted.s1t2", and "raw.s1t2" where those are kept), mean radiance row by row from the top.
+    pub layers: Vec<(String, Vec<crate::math::Vec3>)>,
+}
+
 enum Command {
     Restart(Box<Job>, u64),
     Hide(Box<StrategySet>),
     Pause(bool),
     /// Somebody looks at another picture.
     Look,
+    Layers(Sender<Layers>),
     Stop,
 }
 
@@ -140,6 +152,13 @@ impl Engine {
         &self.job
     }
 
+    /// Asks for every strategy's image; the render thread answers at its next look for commands.
+    pub fn layers(&self) -> Receiver<Layers> {
+        let (sender, answer) = channel();
+        self.send(Command::Layers(sender));
+        answer
+    }
+
     fn send(&self, command: Command) {
         // The thread lives as long as this handle; were it gone, there would be nothing left to tell it.
         drop(self.commands.send(command));
@@ -172,7 +191,7 @@ impl Worker {
         let mut next_frame = Instant::now();
         loop {
             // All commands that have come; a paused thread sleeps until one does. Of several restarts only the last one counts.
-            let (mut changed, mut restart) = (false, None);
+            let (mut changed, mut restart, mut asked) = (false, None, Vec::new());
             loop {
                 let command = if self.paused && !changed { inbox.recv().map_err(|_| TryRecvError::Disconnected) } else { inbox.try_recv() };
                 match command {
@@ -181,6 +200,7 @@ impl Worker {
                     Ok(Command::Hide(hidden)) => self.hidden = *hidden,
                     Ok(Command::Pause(paused)) => self.paused = paused,
                     Ok(Command::Look) => {}
+                    Ok(Command::Layers(sender)) => asked.push(sender),
                     Err(TryRecvError::Empty) => break,
                 }
                 changed = true;
@@ -188,6 +208,10 @@ impl Worker {
             let restarted = restart.is_some();
             if let Some((job, generation)) = restart {
                 self.restart(job, generation);
+            }
+            for sender in asked {
+                // Who asked may have gone away meanwhile.
+                drop(sender.send(self.layers()));
             }
             // The first look at something new should not be empty, and a restart has seen to that.
             if !self.paused && !restarted {
@@ -229,6 +253,15 @@ impl Worker {
             self.batches.end(passes, &image);
             self.intervals = self.batches.intervals().map(Arc::new);
         }
+    }
+
+    fn layers(&mut self) -> Layers {
+        self.session.collect();
+        let session = &self.session;
+        let kinds = [("raw", false), ("weighted", true)].into_iter();
+        let pairs = kinds.flat_map(|kind| session.layers().into_iter().map(move |x| (kind, x)));
+        let layers = pairs.filter_map(|((kind, weighted), x)| Some((format!("{kind}.{x}"), session.layer(x, weighted)?)));
+        Layers { generation: self.generation, size: session.job().size, layers: layers.collect() }
     }
 
     fn publish(&mut self) {

@@ -1,7 +1,9 @@
-//! What a rendering is told as: the labelled sheet of strategy images, and the names it goes by.
+//! What a rendering is told as: the labelled sheet of strategy images, the names it goes by, and whether it is right.
 
 pub mod canvas;
+pub mod check;
 pub mod contact_sheet;
+pub mod export;
 
 pub use canvas::Canvas;
 pub use contact_sheet::{ContactSheet, Heading};

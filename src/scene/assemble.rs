@@ -5,9 +5,10 @@ use super::bvh::Bvh;
 use super::parts::{Bounds, PartCamera};
 use super::sphere::Sphere;
 use super::texture::Textures;
-use super::{Camera, Costs, Lens, Lights, NONE, Parts, Scene, SceneError, SceneFeatures, Triangle};
+use super::{Camera, Costs, Lens, Lights, NONE, Parts, Recipe, Scene, SceneError, SceneFeatures, Triangle};
 use crate::math::DVec3;
 use std::path::Path;
+use std::sync::{Arc, OnceLock};
 
 /// Largest extent of a scene, m: beyond it, products of lengths leave the range of f32.
 pub const MAX_EXTENT: f64 = 1e9;
@@ -61,17 +62,20 @@ impl Scene {
         let bvh = Bvh::build(&mut triangles);
         let build_seconds = start.elapsed().as_secs_f64();
         let (material_names, materials): (Vec<_>, Vec<_>) = parts.materials.into_iter().unzip();
+        let known = parts.recipes.into_iter().map(Some).chain(std::iter::repeat(None));
+        let recipes = materials.iter().zip(known).map(|(material, recipe)| recipe.unwrap_or_else(|| Recipe::of(material))).collect();
         let others = parts.lights.iter().filter_map(|(name, light)| Some((name.clone(), light.relative_to(origin)?))).collect();
         let textures = Textures::new(parts.images, &parts.textures);
         let mut scene = Self {
             name: parts.name,
             origin,
             sphere,
-            triangles,
-            attributes,
+            triangles: triangles.into(),
+            attributes: Arc::new(attributes),
             materials,
+            recipes,
             material_names,
-            textures,
+            textures: Arc::new(textures),
             lights: Lights::default(),
             bvh,
             cameras,
@@ -80,9 +84,10 @@ impl Scene {
             scene: parts.scene,
             features: SceneFeatures::default(),
             costs: Costs { build_seconds, ..Costs::default() },
+            lamps: OnceLock::new(),
         };
-        scene.collect_lights(others, parts.environment);
-        scene.features = SceneFeatures::of(&scene.triangles, &scene.attributes, &scene.materials, &scene.lights);
+        scene.collect_lights(others, parts.environment.map(Arc::new), |_, emission| emission);
+        scene.find_features();
         for index in 0..scene.cameras.len() {
             if scene.cameras[index].lens.focus_distance.is_nan() {
                 scene.cameras[index].lens.focus_distance = scene.default_focus(&scene.cameras[index]);
@@ -93,6 +98,11 @@ impl Scene {
             }
         }
         Ok(scene)
+    }
+
+    /// Derives the features from what there is.
+    pub(super) fn find_features(&mut self) {
+        self.features = SceneFeatures::of(&self.triangles, &self.attributes, &self.materials, &self.lights);
     }
 
     /// The distance, along the axis, of what a camera shows in the middle of its picture; if that is nothing, of the scene's

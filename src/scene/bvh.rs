@@ -18,6 +18,7 @@ use obvhs::bvh2::node::Bvh2Node;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::PlocBuilder;
 use prepared::PreparedRay;
+use std::sync::Arc;
 
 shared_struct! {
     /// A box with either its two children (`count` = 0, at `first` and `first` + 1) or `count` triangles from `first` on.
@@ -76,10 +77,10 @@ pub enum Visit {
 }
 
 /// The hierarchy; node 0 is the root. Empty for a scene without triangles.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Bvh {
     /// The nodes. Boxes reach [`PADDING`] beyond what they hold.
-    pub nodes: Vec<Node>,
+    pub nodes: Arc<[Node]>,
     /// Depth of the tree, root = 1: the traversal stack never holds more than this. At most [`STACK_SIZE`].
     pub depth: u32,
 }
@@ -109,12 +110,34 @@ impl Bvh {
             (nodes, order) = by_halves(triangles);
         }
         *triangles = order.iter().map(|&i| triangles[i as usize]).collect();
-        let largest = nodes.first().map_or(0.0, |root| root.min.abs().max(root.max.abs()).max_element());
-        let padding = Vec3::splat(largest * PADDING);
-        for node in &mut nodes {
-            (node.min, node.max) = (node.min - padding, node.max + padding);
+        pad(&mut nodes);
+        Self { depth: depth_of(&nodes), nodes: nodes.into() }
+    }
+
+    /// The same tree around triangles that have moved: as right as a new one, if not as good.
+    #[must_use]
+    pub fn refitted(&self, triangles: &[Triangle]) -> Self {
+        let mut nodes = self.nodes.to_vec();
+        // Parents before their children; backwards, every node finds its children done.
+        let (mut order, mut stack) = (Vec::with_capacity(nodes.len()), if nodes.is_empty() { Vec::new() } else { vec![0] });
+        while let Some(index) = stack.pop() {
+            order.push(index);
+            let node = &nodes[index];
+            if node.count == 0 {
+                stack.extend([node.first as usize, node.first as usize + 1]);
+            }
         }
-        Self { depth: depth_of(&nodes), nodes }
+        for index in order.into_iter().rev() {
+            let Node { first, count, .. } = nodes[index];
+            let first = first as usize;
+            let (min, max) = match count {
+                0 => (nodes[first].min.min(nodes[first + 1].min), nodes[first].max.max(nodes[first + 1].max)),
+                _ => box_around(triangles[first..first + count as usize].iter()),
+            };
+            (nodes[index].min, nodes[index].max) = (min, max);
+        }
+        pad(&mut nodes);
+        Self { depth: self.depth, nodes: nodes.into() }
     }
 
     /// The nearest hit with distance > 0.
@@ -231,6 +254,21 @@ impl Bvh {
     }
 }
 
+/// Makes every box reach [`PADDING`] beyond what it holds.
+fn pad(nodes: &mut [Node]) {
+    let largest = nodes.first().map_or(0.0, |root| root.min.abs().max(root.max.abs()).max_element());
+    let padding = Vec3::splat(largest * PADDING);
+    for node in nodes {
+        (node.min, node.max) = (node.min - padding, node.max + padding);
+    }
+}
+
+/// The box around triangles.
+fn box_around<'a>(triangles: impl Iterator<Item = &'a Triangle>) -> (Vec3, Vec3) {
+    let corners = triangles.flat_map(|t| [t.p0, t.p1, t.p2]);
+    corners.fold((Vec3::MAX, Vec3::MIN), |(min, max), p| (min.min(p), max.max(p)))
+}
+
 /// A good tree: the surface-area heuristic as `obvhs` optimises it. The order lists the triangles leaf by leaf.
 fn by_surface_area(triangles: &[Triangle]) -> (Vec<Node>, Vec<u32>) {
     let corners: Vec<_> =
@@ -260,8 +298,7 @@ fn by_halves(triangles: &[Triangle]) -> (Vec<Node>, Vec<u32>) {
     let mut open = vec![(0, 0..order.len())];
     while let Some((index, range)) = open.pop() {
         let own = &mut order[range.clone()];
-        let corners = own.iter().map(|&i| &triangles[i as usize]).flat_map(|t| [t.p0, t.p1, t.p2]);
-        let (min, max) = corners.fold((Vec3::MAX, Vec3::MIN), |(min, max), p| (min.min(p), max.max(p)));
+        let (min, max) = box_around(own.iter().map(|&i| &triangles[i as usize]));
         if own.len() <= LEAF_SIZE {
             nodes[index] = Node { min, first: range.start as u32, max, count: own.len() as u32 };
             continue;

@@ -11,9 +11,10 @@
 use super::Scene;
 use super::sphere::Sphere;
 use crate::math::{PI, Vec2, Vec3, sample_disk};
+use serde::{Deserialize, Serialize};
 
 /// How a camera gathers light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lens {
     /// Radius of the aperture, m; 0 is a pinhole.
     pub radius: f32,

@@ -5,6 +5,7 @@ use super::light::{AREA, ENVIRONMENT, Light};
 use super::material::{TRANSPARENT, UNLIT};
 use super::{Environment, General, Lights, Material, NONE, Scene, Triangle};
 use crate::math::{Vec2, Vec3, sample_triangle};
+use std::sync::Arc;
 
 /// The most points at which the mean of an emissive texture over a triangle is taken: a floor on what is not met keeps it
 /// samplable.
@@ -13,31 +14,47 @@ const POINTS: u32 = 64;
 const FEWEST: u32 = 8;
 
 impl Scene {
-    /// Collects the emissive triangles, writes each one's index into its `light` field, and adds the other lights.
-    pub(super) fn collect_lights(&mut self, others: Vec<(String, Light)>, environment: Option<Environment>) {
-        let (mut list, mut means) = (Vec::new(), Vec::new());
-        for index in 0..self.triangles.len() as u32 {
-            let triangle = &self.triangles[index as usize];
+    /// Collects the emissive triangles, writes each one's index into its `light` field, and adds the other lights. `shine` makes of
+    /// what a triangle's material emits what the triangle itself does.
+    pub(super) fn collect_lights(
+        &mut self,
+        others: Vec<(String, Light)>,
+        environment: Option<Arc<Environment>>,
+        shine: impl Fn(u32, Vec3) -> Vec3,
+    ) {
+        let (mut list, mut means, mut renumbered) = (Vec::new(), Vec::new(), Vec::new());
+        for (triangle, index) in self.triangles.iter().zip(0..) {
             let material = &self.materials[triangle.material as usize];
+            let radiance = if material.emits() { shine(index, material.emission) } else { Vec3::ZERO };
             let area = 0.5 * (triangle.p1 - triangle.p0).cross(triangle.p2 - triangle.p0).length();
-            let mean = if material.emits() && area > 0.0 { self.mean_emission(index, triangle, material) } else { None };
+            let shines = radiance.max_element() > 0.0 && area > 0.0;
+            let mean = if shines { self.mean_emission(index, triangle, radiance) } else { None };
             let light = mean.map(|mean| {
                 let sides = if material.two_sided == 1 { 2.0 } else { 1.0 };
-                list.push(Light { triangle: index, area, sides, ..Light::new(AREA, material.emission) });
+                list.push(Light { triangle: index, area, sides, ..Light::new(AREA, radiance) });
                 means.push(mean);
                 list.len() as u32 - 1
             });
-            self.triangles[index as usize].light = light.unwrap_or(NONE);
+            let light = light.unwrap_or(NONE);
+            if light != triangle.light {
+                renumbered.push((index, light));
+            }
+        }
+        // Only where something changed are the triangles copied.
+        if !renumbered.is_empty() {
+            let triangles = Arc::make_mut(&mut self.triangles);
+            renumbered.into_iter().for_each(|(index, light)| triangles[index as usize].light = light);
         }
         let (names, others): (Vec<_>, Vec<_>) = others.into_iter().filter(|(_, light)| light.radiance.max_element() > 0.0).unzip();
         list.extend(others);
-        let environment = environment.filter(Environment::emits);
+        let environment = environment.filter(|map| map.emits());
         list.extend(environment.iter().map(|_| Light::new(ENVIRONMENT, Vec3::ONE)));
         self.lights = Lights::new(list, &means, names, environment, self.sphere.radius);
     }
 
-    /// The mean over a triangle of what multiplies its material's emission; `None` if that is nothing anywhere.
-    fn mean_emission(&self, index: u32, triangle: &Triangle, material: &Material) -> Option<Vec3> {
+    /// The mean over a triangle of what multiplies its radiance; `None` if that is nothing anywhere.
+    fn mean_emission(&self, index: u32, triangle: &Triangle, radiance: Vec3) -> Option<Vec3> {
+        let material = &self.materials[triangle.material as usize];
         let varies = material.emissive_texture != NONE || material.has(TRANSPARENT) || material.has(UNLIT);
         if triangle.attributes == NONE || !varies {
             let opacity = self.emission_opacity(triangle, material);
@@ -53,7 +70,7 @@ impl Scene {
             self.emission_factor::<General>(index, triangle.material, b) * a
         });
         let mean = points.sum::<Vec3>() / count as f32;
-        let somewhere = |factor: Vec3| (factor * material.emission).max_element() > 0.0;
+        let somewhere = |factor: Vec3| (factor * radiance).max_element() > 0.0;
         (somewhere(mean) || somewhere(self.largest_emission(material, attributes))).then_some(mean)
     }
 

@@ -68,6 +68,18 @@ impl Environment {
         Self { width, height, texels, choice, integral, rotation: (rotation / 360.0).rem_euclid(1.0) as f32 }
     }
 
+    /// The same map, stronger by a factor above 0, and turned by other degrees about +Y.
+    #[must_use]
+    pub fn changed(&self, strength: f32, rotation: Option<f64>) -> Self {
+        let mut changed = self.clone();
+        if strength != 1.0 {
+            changed.texels.iter_mut().for_each(|texel| texel.radiance *= strength);
+            changed.integral *= strength;
+        }
+        changed.rotation = rotation.map_or(self.rotation, |rotation| (rotation / 360.0).rem_euclid(1.0) as f32);
+        changed
+    }
+
     /// How far it is turned, counter-clockwise seen from above, in turns.
     pub fn rotation(&self) -> f32 {
         self.rotation

@@ -90,6 +90,7 @@ fn read(
         triangles: triangles.list,
         attributes: triangles.attributes,
         materials: materials.list,
+        recipes: materials.recipes,
         textures: materials.textures,
         images: materials.images,
         cameras,

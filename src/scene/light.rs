@@ -17,6 +17,7 @@ use super::environment::Environment;
 use super::{NONE, Scene, Shape, SurfacePoint};
 use crate::math::{Frame, INV_PI, PI, Vec2, Vec3, cube_root, direction_at, sample_cosine_hemisphere, sample_sphere, versine};
 use crate::shared_struct;
+use std::sync::Arc;
 
 shared_struct! {
     /// One light.
@@ -201,7 +202,7 @@ impl Light {
 }
 
 /// All lights of a scene.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Lights {
     /// Area lights first, then those of no extent, then the environment.
     pub list: Vec<Light>,
@@ -210,7 +211,7 @@ pub struct Lights {
     /// Names of the lights of no extent; the others are called like their material, or not at all.
     names: Vec<String>,
     /// What comes from infinity; light number [`Lights::environment_index`].
-    pub environment: Option<Environment>,
+    pub environment: Option<Arc<Environment>>,
     /// Sum of all powers, W per channel.
     pub power: Vec3,
 }
@@ -218,7 +219,7 @@ pub struct Lights {
 impl Lights {
     /// The lights of a list (area lights first), with their common pmf. `area_means[i]` is what multiplies the radiance of area
     /// light i in the mean; `radius` is that of the sphere around the scene.
-    pub fn new(list: Vec<Light>, area_means: &[Vec3], names: Vec<String>, environment: Option<Environment>, radius: f32) -> Self {
+    pub fn new(list: Vec<Light>, area_means: &[Vec3], names: Vec<String>, environment: Option<Arc<Environment>>, radius: f32) -> Self {
         let disk = f64::from(PI) * f64::from(radius) * f64::from(radius);
         let power = |(i, light): (usize, &Light)| match (light.kind, &environment) {
             (ENVIRONMENT, Some(map)) => map.integral.as_dvec3() * disk,
@@ -251,6 +252,11 @@ impl Lights {
     pub fn name(&self, light: u32) -> Option<&str> {
         let first = self.list.iter().position(Light::is_dirac)?;
         self.names.get((light as usize).checked_sub(first)?).map(String::as_str)
+    }
+
+    /// The lights of no extent with their names.
+    pub fn dirac(&self) -> impl Iterator<Item = (&str, &Light)> {
+        self.names.iter().map(String::as_str).zip(self.list.iter().filter(|light| light.is_dirac()))
     }
 
     /// Chooses a light; `None` if there is none.

@@ -12,16 +12,20 @@ pub mod builtin;
 pub mod bvh;
 pub mod camera;
 pub mod defaults;
+pub mod edit;
 mod emitters;
 pub mod environment;
 pub mod error;
 pub mod features;
 pub mod gltf;
+pub mod lamps;
 pub mod light;
 pub mod material;
 pub mod parts;
+pub mod pose;
 pub mod progress;
 mod read;
+pub mod recipe;
 pub mod sphere;
 pub mod surface;
 pub mod texture;
@@ -30,17 +34,22 @@ pub use bsdf::{Bsdf, BsdfSample, TransportMode};
 pub use bvh::{Bvh, Hit, Ray, Segment};
 pub use camera::{Camera, Lens, View};
 pub use defaults::Overrides;
+pub use edit::SceneEdits;
 pub use environment::Environment;
 pub use error::SceneError;
 pub use features::{General, Matte, Opaque, SceneFeatures, Shape};
+pub use lamps::Lamp;
 pub use light::Lights;
 pub use material::{COAT, CONDUCTOR, DIELECTRIC, LAMBERT, MIRROR, Material, THIN_DIELECTRIC};
 pub use parts::Parts;
+pub use pose::Pose;
 pub use progress::Progress;
+pub use recipe::Recipe;
 pub use surface::{Look, SurfacePoint};
 
 use crate::math::{DVec3, Vec3};
 use crate::shared_struct;
+use std::sync::{Arc, OnceLock};
 
 /// "No such index" in the flat arrays.
 pub const NONE: u32 = u32::MAX;
@@ -63,8 +72,8 @@ shared_struct! {
     }
 }
 
-/// A loaded scene, ready to render.
-#[derive(Debug)]
+/// A loaded scene, ready to render. What is large is shared: a copy of a scene, to change something small in it, is cheap.
+#[derive(Clone, Debug)]
 pub struct Scene {
     /// Built-in name or file name.
     pub name: String,
@@ -73,15 +82,17 @@ pub struct Scene {
     /// The sphere around all triangles.
     pub sphere: sphere::Sphere,
     /// Triangles in the order the hierarchy wants them.
-    pub triangles: Vec<Triangle>,
+    pub triangles: Arc<[Triangle]>,
     /// What the triangles have beyond their corners.
-    pub attributes: attributes::Arrays,
+    pub attributes: Arc<attributes::Arrays>,
     /// Materials.
     pub materials: Vec<Material>,
+    /// What each material was made from.
+    pub recipes: Vec<Recipe>,
     /// Name of each material, as the file has it.
     pub material_names: Vec<String>,
     /// The images' texels and how materials use them.
-    pub textures: texture::Textures,
+    pub textures: Arc<texture::Textures>,
     /// Area lights and their common probability mass function.
     pub lights: Lights,
     /// Hierarchy over `triangles`.
@@ -98,6 +109,8 @@ pub struct Scene {
     pub features: SceneFeatures,
     /// What it took to get here.
     pub costs: Costs,
+    /// The lamps, once they were asked for.
+    lamps: OnceLock<Arc<[Lamp]>>,
 }
 
 /// What it took to load a scene.

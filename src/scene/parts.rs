@@ -3,7 +3,7 @@
 
 use super::light::Light;
 use super::texture::{Image, TextureUse};
-use super::{Environment, Material, SceneError};
+use super::{Environment, Material, Recipe, SceneError};
 use crate::math::{DVec3, Vec2, Vec3};
 use glam::Vec4;
 use std::path::Path;
@@ -134,6 +134,8 @@ pub struct Parts {
     pub attributes: Vec<PartAttributes>,
     /// Materials with their names; their textures are indices into `textures`.
     pub materials: Vec<(String, Material)>,
+    /// What the materials were made from, in the same order; of those that are missing it is guessed.
+    pub recipes: Vec<Recipe>,
     /// How images are used.
     pub textures: Vec<TextureUse>,
     /// Images.

@@ -1,5 +1,6 @@
 //! The program's window: the layout of its panels, and the passes in which they are shown.
 
+use super::edit::history::Snapshot;
 use super::image_view::Desk;
 use super::live::{Live, SceneSource};
 use super::pictures::Pictures;
@@ -189,6 +190,9 @@ impl eframe::App for App {
         // What was changed just now is on its way before the next pass.
         let ctx = ui.ctx().clone();
         self.sync(&ctx);
+        let held = ctx.input(|input| input.pointer.any_down());
+        let now = Snapshot::of(&self.state);
+        self.state.edit.history.watch(now, held, Instant::now());
         // Smoothed, so that it can be read.
         self.ui_ms += 0.1 * (start.elapsed().as_secs_f32() * 1e3 - self.ui_ms);
     }

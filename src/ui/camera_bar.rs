@@ -1,6 +1,7 @@
 //! The camera's controls, a row above the image: which camera, how wide its aperture is, and what is sharp. What changes here
 //! restarts the rendering at once.
 
+use super::edit;
 use super::format;
 use super::keys::{self, Action};
 use super::live::Live;
@@ -33,6 +34,8 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
             state.lens = Some(chosen);
         }
         buttons(ui, state, lens.radius > 0.0);
+        edit::move_button(ui, state);
+        edit::to_file(ui, state);
     });
 }
 

@@ -27,10 +27,28 @@ fn digits(value: f64, count: i32) -> String {
 
 /// Three channels.
 pub fn rgb(value: [f32; 3]) -> String {
+    rgb_f64(value.map(f64::from))
+}
+
+/// The same.
+pub fn rgb_f64(value: [f64; 3]) -> String {
     if value[0] == value[1] && value[1] == value[2] {
-        return number(f64::from(value[0]));
+        return number(value[0]);
     }
-    value.map(|v| number(f64::from(v))).join("  ")
+    value.map(number).join("  ")
+}
+
+/// The angle between two unit vectors, degrees: small ones, too, keep their digits.
+pub fn angle(a: [f32; 3], b: [f32; 3]) -> f64 {
+    let [a, b] = [a, b].map(|v| v.map(f64::from));
+    let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    let dot: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+    cross.iter().map(|c| c * c).sum::<f64>().sqrt().atan2(dot).to_degrees()
+}
+
+/// A unit vector.
+pub fn direction(value: [f32; 3]) -> String {
+    value.map(|v| format!("{v:.4}")).join("  ")
 }
 
 /// A position, metres, to 0.1 mm near 1 m.
@@ -73,6 +91,11 @@ pub const FRESH_LENS: &str = "z₀'";
 
 /// The brightness of a colour as one number (Rec. 709 luminance).
 pub fn luminance(rgb: [f32; 3]) -> f32 {
+    0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
+}
+
+/// The same.
+pub fn luminance_f64(rgb: [f64; 3]) -> f64 {
     0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
 }
 

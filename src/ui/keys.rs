@@ -1,5 +1,7 @@
 //! Every key, in one table: it is what the program obeys, what the help window lists and what tooltips quote.
 
+use super::edit::history;
+use super::inspector;
 use super::space;
 use super::state::{Placement, Source, State};
 use super::text::{SpaceText, Text, Words};
@@ -47,6 +49,12 @@ pub enum Action {
     Why,
     /// Focus on the selected pixel, or on the one clicked next.
     Focus,
+    /// Look for a sample with light, or for the brightest.
+    Find,
+    /// Take a step back, or forth.
+    Undo,
+    /// Take an undone step again.
+    Redo,
     /// The list of keys.
     Help,
     /// The 3-D view frames the selection.
@@ -76,7 +84,15 @@ pub struct Binding {
 impl Binding {
     /// Does the key act again and again while it is held? What it switches on it must not switch off at once.
     fn repeats(&self) -> bool {
-        matches!(self.action, Action::Nudge | Action::Sample | Action::Exposure | Action::Offset | Action::Vertex)
+        matches!(
+            self.action,
+            Action::Nudge | Action::Sample | Action::Exposure | Action::Offset | Action::Vertex | Action::Undo | Action::Redo
+        )
+    }
+
+    /// Does it take Ctrl (on a Mac: Command)?
+    fn command(&self) -> bool {
+        matches!(self.action, Action::Undo | Action::Redo)
     }
 }
 
@@ -86,6 +102,7 @@ pub const TABLE: &[Binding] = &[
     Binding { action: Action::Sample, shown: "N, Shift+N", text: Text::KeySample, keys: &[Key::N], shift: true },
     Binding { action: Action::Strategy, shown: "1 … 9", text: Text::KeyStrategy, keys: DIGITS, shift: false },
     Binding { action: Action::Vertex, shown: "Space, Shift+Space", text: Text::KeyVertex, keys: &[Key::Space], shift: true },
+    Binding { action: Action::Find, shown: "L, Shift+L", text: Text::KeyFind, keys: &[Key::L], shift: true },
     Binding { action: Action::Hide, shown: "H", text: Text::KeyHide, keys: &[Key::H], shift: false },
     Binding { action: Action::Mode, shown: "M, Shift+M", text: Text::KeyMode, keys: &[Key::M], shift: true },
     Binding { action: Action::Why, shown: "Y", text: Text::KeyWhy, keys: &[Key::Y], shift: false },
@@ -100,6 +117,8 @@ pub const TABLE: &[Binding] = &[
     Binding { action: Action::Back, shown: "Esc", text: Text::KeyBack, keys: &[Key::Escape], shift: false },
     Binding { action: Action::ResetView, shown: "R", text: Text::KeyReset, keys: &[Key::R], shift: false },
     Binding { action: Action::Pause, shown: "P", text: Text::KeyPause, keys: &[Key::P], shift: false },
+    Binding { action: Action::Undo, shown: "Ctrl+Z, Ctrl+Shift+Z", text: Text::KeyUndo, keys: &[Key::Z], shift: true },
+    Binding { action: Action::Redo, shown: "Ctrl+Y", text: Text::KeyRedo, keys: &[Key::Y], shift: false },
     Binding { action: Action::Help, shown: "?", text: Text::KeyHelp, keys: &[Key::Questionmark], shift: true },
 ];
 
@@ -162,17 +181,18 @@ fn in_space(state: &mut State, pressed: Key) -> bool {
 
 /// Obeys the keys pressed in this pass. A text field with the focus gets them all; a focused widget keeps Space and the arrows.
 pub fn obey(ctx: &egui::Context, state: &mut State, image: egui::Id) {
-    if ctx.text_edit_focused() {
+    // While the hand flies the camera, letters steer it.
+    if ctx.text_edit_focused() || state.edit.flying() {
         return;
     }
     let elsewhere = ctx.memory(|memory| memory.focused()).is_some_and(|id| id != image);
-    for (pressed, shift, repeat) in ctx.input(presses) {
-        if in_space(state, pressed) {
+    for Press { key: pressed, shift, repeat, command } in ctx.input(presses) {
+        if !command && in_space(state, pressed) {
             continue;
         }
         for row in TABLE {
             let kept = elsewhere && matches!(row.action, Action::Nudge | Action::Vertex);
-            if kept || (shift && !row.shift) || (repeat && !row.repeats()) {
+            if kept || command != row.command() || (shift && !row.shift) || (repeat && !row.repeats()) {
                 continue;
             }
             if let Some(index) = row.keys.iter().position(|key| *key == pressed) {
@@ -186,11 +206,19 @@ pub fn obey(ctx: &egui::Context, state: &mut State, image: egui::Id) {
     }
 }
 
-/// The keys pressed since the last pass, in order and each as often as it was, with Shift, and whether it is only held down.
-fn presses(input: &egui::InputState) -> Vec<(Key, bool, bool)> {
+/// A key that went down, or is held down (`repeat`).
+struct Press {
+    key: Key,
+    shift: bool,
+    repeat: bool,
+    command: bool,
+}
+
+/// The keys pressed since the last pass, in order and each as often as it was.
+fn presses(input: &egui::InputState) -> Vec<Press> {
     let key = |event: &egui::Event| match event {
-        egui::Event::Key { key, pressed: true, repeat, modifiers, .. } if !modifiers.ctrl && !modifiers.alt && !modifiers.command => {
-            Some((*key, modifiers.shift, *repeat))
+        egui::Event::Key { key, pressed: true, repeat, modifiers, .. } if !modifiers.alt && (modifiers.command || !modifiers.ctrl) => {
+            Some(Press { key: *key, shift: modifiers.shift, repeat: *repeat, command: modifiers.command })
         }
         _ => None,
     };
@@ -253,6 +281,9 @@ pub fn perform(state: &mut State, action: Action, index: usize, shift: bool) {
         Action::Why => state.study.why = !state.study.why,
         Action::Focus if shift => state.picking_focus = !state.picking_focus,
         Action::Focus => (state.picking_focus, state.focus_on) = (false, Some(state.selection.pixel)),
+        Action::Find => inspector::start_search(state, if shift { inspector::Goal::Brightest } else { inspector::Goal::Light }),
+        Action::Undo => history::go(state, !shift),
+        Action::Redo => history::go(state, false),
         Action::Help => state.help = !state.help,
         Action::Frame | Action::Orbit | Action::Dolly => space::step(state, action, index),
         // What is held, not what is pressed, flies.
@@ -268,7 +299,7 @@ pub fn step_sample(state: &mut State, back: bool) {
 
 /// Closes what is open; with nothing open, the view goes back to the image.
 fn back(state: &mut State) {
-    let open = std::mem::take(&mut state.help) | std::mem::take(&mut state.picking_focus);
+    let open = std::mem::take(&mut state.help) | std::mem::take(&mut state.picking_focus) | state.inspect.search.take().is_some();
     if !open {
         state.compare.a = Source::Image;
     }

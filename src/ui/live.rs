@@ -1,20 +1,28 @@
 //! What the state asks for, made real: loads scenes, keeps the engine in step with the state, and re-runs the selected sample
 //! when (and only when) something it depends on has changed. Nothing here waits: scenes load and images render elsewhere.
 
-use super::loader::{Failure, Loader};
+mod shown;
+
+use super::checks::Runner;
+use super::edit::dialog::Dialog;
+use super::edit::reload::Reload;
+use super::export::{Saver, Sources};
+use super::inspector;
+use super::loader::Loader;
 use super::state::{Opening, State};
 use super::study;
-use super::text::{Text, fill};
+use super::text::Text;
 use super::wake::Wake;
 use crate::bdpt::record::StrategyRecord;
 use crate::bdpt::{Existence, PathRecord};
 use crate::engine::{self, Engine, Frame, Job, Study};
-use crate::scene::{Lens, Scene, builtin};
+use crate::scene::{Camera, Lens, Scene};
+use shown::Shown;
 use std::sync::Arc;
 use std::time::Duration;
 use web_time::Instant;
 
-/// How long a lens that is being dragged waits for the picture of its predecessor.
+/// How long a lens or a camera that is being dragged waits for the picture of its predecessor.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// What exists while there is no scene to ask.
@@ -26,13 +34,6 @@ pub enum SceneSource {
     Named(String),
     /// In memory already.
     Ready(Arc<Scene>),
-}
-
-/// A scene, and what it was made from.
-#[derive(Clone)]
-struct Shown {
-    scene: Arc<Scene>,
-    opening: Opening,
 }
 
 /// What a record depends on.
@@ -47,6 +48,8 @@ struct RecordKey {
 pub struct Live {
     wake: Wake,
     loader: Loader,
+    reload: Reload,
+    dialog: Dialog,
     engine: Option<Engine>,
     /// The scene to show, and the one the engine accepted last.
     shown: Option<Shown>,
@@ -58,11 +61,14 @@ pub struct Live {
     frame_number: u64,
     record: Option<(RecordKey, Result<Arc<PathRecord>, String>)>,
     records_made: u64,
-    /// The sentences about the settings and the scene refused last; they go when others are accepted.
+    /// The sentences about the settings, the edits and the scene refused last; they go when others are accepted.
     refused: Option<String>,
+    refused_edit: Option<String>,
     unreadable: Option<String>,
     /// What was said of the scene on show.
     noted: Option<String>,
+    saver: Saver,
+    checks: Runner,
 }
 
 impl Live {
@@ -71,6 +77,8 @@ impl Live {
         Self {
             wake: wake.clone(),
             loader: Loader::new(wake),
+            reload: Reload::default(),
+            dialog: Dialog::default(),
             engine: None,
             shown: None,
             running: None,
@@ -82,8 +90,11 @@ impl Live {
             record: None,
             records_made: 0,
             refused: None,
+            refused_edit: None,
             unreadable: None,
             noted: None,
+            saver: Saver::new(wake),
+            checks: Runner::default(),
         }
     }
 
@@ -92,39 +103,52 @@ impl Live {
         match source {
             SceneSource::Ready(scene) => {
                 let opening = Opening::of(scene.name.as_str());
-                self.shown = Some(Shown { scene, opening });
+                self.shown = Some(Shown::new(scene, opening));
             }
-            SceneSource::Named(name) => self.loader.start(Opening::of(name)),
+            SceneSource::Named(name) => self.load(Opening::of(name)),
         }
     }
 
     /// Brings everything in step with the state. Returns true if the next pass shows something new.
     pub fn sync(&mut self, state: &mut State) -> bool {
+        self.look_for_files(state);
         if let Some(opening) = state.open.take() {
-            self.loader.start(opening);
+            self.load(opening);
         }
         state.clamp();
         let loaded = self.finish_loading(state);
         self.focus(state);
-        // First the picture that is there, then the next one's job: a lens that is dragged shows every step of the way.
+        // First the picture that is there, then the next one's job: a lens or a camera that is dragged shows every step of the way.
         let new_frame = self.sync_frame();
+        self.sync_edits(state, loaded);
         let restarted = self.sync_job(state);
+        let checked = self.checks.sync(state, self.engine.as_ref(), &self.wake);
         if let Some(engine) = &mut self.engine {
             if engine.hidden() != state.hidden {
                 engine.set_hidden(state.hidden);
             }
-            if engine.paused() != state.paused {
-                engine.set_paused(state.paused);
+            // The processor belongs to the checks while they run.
+            let paused = state.paused || self.checks.running();
+            if engine.paused() != paused {
+                engine.set_paused(paused);
             }
             engine.set_wish(study::wish(state, self.frame.as_deref()));
         }
+        let searching = self.engine.as_ref().is_some_and(|engine| inspector::sync_search(state, engine));
         let new_record = self.sync_record(state);
-        loaded || restarted || new_frame || new_record
+        let record = self.record(state);
+        let saved = self.saver.sync(state, Sources { engine: self.engine.as_ref(), frame: self.frame.as_ref(), record });
+        loaded || restarted || checked || new_frame || new_record || searching || saved
     }
 
     /// The scene on show.
     pub fn scene(&self) -> Option<&Arc<Scene>> {
         self.shown.as_ref().map(|shown| &shown.scene)
+    }
+
+    /// The same as its file has it, without the edits.
+    pub fn file_scene(&self) -> Option<&Arc<Scene>> {
+        self.shown.as_ref().map(|shown| &shown.file)
     }
 
     /// What the scene on show was made from.
@@ -152,9 +176,21 @@ impl Live {
         state.lens.or_else(|| Some(self.scene()?.cameras.get(state.camera)?.lens))
     }
 
+    /// The camera where it stands, with the lens in use.
+    pub fn camera(&self, state: &State) -> Option<Camera> {
+        let scene = self.scene()?;
+        let camera = Camera { lens: self.lens(state)?, ..scene.cameras.get(state.camera)?.clone() };
+        Some(state.pose.map_or(camera.clone(), |pose| pose.camera(scene, &camera)))
+    }
+
     /// What is being rendered.
     pub fn engine(&self) -> Option<&Engine> {
         self.engine.as_ref()
+    }
+
+    /// The checks, and what came of them.
+    pub fn checks(&self) -> &Runner {
+        &self.checks
     }
 
     /// Which strategies exist in what is being rendered, and why the others do not.
@@ -209,48 +245,6 @@ impl Live {
         self.record(state)?.strategies.iter().find(|x| x.strategy() == state.selection.strategy)
     }
 
-    fn finish_loading(&mut self, state: &mut State) -> bool {
-        let Some((opening, result)) = self.loader.take() else { return false };
-        match result {
-            Ok(scene) => {
-                // The scene shown instead of one that could not be read is no cure.
-                if self.shown.is_some() {
-                    state.retract(self.unreadable.take());
-                }
-                // What was to be said of the scene before is no longer of use.
-                state.retract(self.noted.take());
-                if !scene.notes.is_empty() {
-                    let note = format!("{}: {}", scene.name, scene.notes.join(" "));
-                    self.noted = Some(note.clone());
-                    state.tell(false, note);
-                }
-                // The same scene in another light keeps its camera.
-                let same = |old: &Opening| (&old.scene, &old.inside) == (&opening.scene, &opening.inside);
-                if !self.opened().is_some_and(same) || state.camera >= scene.cameras.len() {
-                    state.choose_camera(0);
-                }
-                // A scene that was never seen is not paused before its first pass.
-                state.paused = false;
-                self.shown = Some(Shown { scene: Arc::new(scene), opening });
-            }
-            Err(failure) => {
-                let error = match failure {
-                    Failure::Refused(error) => error.to_string(),
-                    Failure::Died => fill(state.say(Text::LoaderDied), &[&opening.scene]),
-                };
-                state.retract(self.unreadable.replace(error.clone()));
-                state.tell(true, error);
-                // With nothing on show yet, show something.
-                if self.shown.is_none()
-                    && let Some(first) = builtin::list().first()
-                {
-                    self.loader.start(Opening::of(first.name));
-                }
-            }
-        }
-        true
-    }
-
     /// Focuses on a pixel that was asked for.
     fn focus(&mut self, state: &mut State) {
         let Some(lens) = self.lens(state) else { return };
@@ -271,18 +265,20 @@ impl Live {
     fn sync_job(&mut self, state: &mut State) -> bool {
         let Some(shown) = self.shown.clone() else { return false };
         let current = self.engine.as_ref().map(Engine::job);
-        let same_but_for_lens = current.is_some_and(|job| {
-            Arc::ptr_eq(&job.scene, &shown.scene)
+        let same_but_for_dragging = current.is_some_and(|job| {
+            self.running.as_ref().is_some_and(|old| Arc::ptr_eq(&old.file, &shown.file))
                 && (job.camera, job.size, job.settings, job.backend) == (state.camera, state.size, state.settings, state.prefs.backend)
                 && !state.restart
         });
-        if same_but_for_lens && (current.is_some_and(|job| job.lens == state.lens) || self.picture_is_coming()) {
+        let undragged = |job: &Job| (job.pose, job.lens) == (state.pose, state.lens) && Arc::ptr_eq(&job.scene, &shown.scene);
+        if same_but_for_dragging && (current.is_some_and(undragged) || self.picture_is_coming()) {
             return false;
         }
         let moved = self.running.as_ref().is_some_and(|old| old.opening.scene != shown.opening.scene);
         state.restart = false;
         let job = Job {
             camera: state.camera,
+            pose: state.pose,
             lens: state.lens,
             size: state.size,
             settings: state.settings,
@@ -306,11 +302,12 @@ impl Live {
                 // The old rendering goes on: the state says what is running.
                 if let Some(job) = self.engine.as_ref().map(Engine::job) {
                     state.resize(job.size);
-                    (state.settings, state.camera, state.lens) = (job.settings, job.camera, job.lens);
+                    (state.settings, state.camera, state.pose, state.lens) = (job.settings, job.camera, job.pose, job.lens);
                     state.prefs.backend = job.backend;
                 }
                 state.tell(true, error.0);
                 self.shown = self.running.clone();
+                state.edit.edits = self.running.as_ref().map(|running| running.edits.clone()).unwrap_or_default();
                 return true;
             }
         }

@@ -9,6 +9,7 @@ mod app;
 mod camera_bar;
 mod cell;
 mod checks;
+mod cite;
 mod compare;
 mod darkroom;
 mod edit;
@@ -24,6 +25,7 @@ mod legend;
 mod live;
 mod loader;
 mod looks_menu;
+mod mark_pick;
 mod marks;
 mod messages;
 #[cfg(not(target_arch = "wasm32"))]
@@ -51,6 +53,7 @@ mod watch;
 mod widgets;
 
 pub use app::{App, Start};
+pub use inspector::weights as inspector_weights;
 pub use live::{Live, SceneSource};
 #[cfg(not(target_arch = "wasm32"))]
 pub use native::{EveryPass, Hooks, Pass, WindowError, open, run};

@@ -91,7 +91,7 @@ mod tests {
             (Rect::from_min_max(pos2(100.0, 0.0), pos2(200.0, 100.0)), Rect::from_min_max(pos2(0.0, 0.0), pos2(300.0, 100.0)));
         let camera = &scene.cameras[0];
         let eye = scene.origin + camera.position.as_dvec3();
-        (Projector::new(&scene, 0, [100, 100], [image, clip]).unwrap(), [eye, camera.axis.as_dvec3()])
+        (Projector::new(&scene, camera, [100, 100], [image, clip]), [eye, camera.axis.as_dvec3()])
     }
 
     fn vertex(kind: &'static str, position: DVec3) -> VertexRecord {
@@ -103,9 +103,13 @@ mod tests {
             light: None,
             light_name: None,
             material: None,
+            material_index: None,
+            light_index: None,
             model: None,
             look: None,
             emitter: false,
+            emission: None,
+            edge: None,
             alpha: [1.0; 3],
             pdf_fwd: 1.0,
             pdf_rev: None,

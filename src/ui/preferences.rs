@@ -1,8 +1,10 @@
 //! What a person chose about the window itself; it survives a restart of the program.
 
+use super::edit::Bookmark;
 use super::text::Lang;
 use crate::engine::Backend;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// What is drawn over the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -94,6 +96,10 @@ pub struct Preferences {
     pub space_open: bool,
     /// Are the camera's controls shown?
     pub camera_open: bool,
+    /// Scene files opened last, the latest first.
+    pub recent: Vec<String>,
+    /// Views to come back to, by scene.
+    pub bookmarks: BTreeMap<String, Vec<Bookmark>>,
 }
 
 impl Default for Preferences {
@@ -115,6 +121,8 @@ impl Default for Preferences {
             pyramid_open: true,
             space_open: true,
             camera_open: false,
+            recent: Vec::new(),
+            bookmarks: BTreeMap::new(),
         }
     }
 }

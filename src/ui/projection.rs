@@ -4,7 +4,7 @@
 //! no image, and its mirror image would be a lie), then in two at a rectangle, so that no dash is drawn where nobody sees it.
 
 use crate::math::{DVec3, Vec2, Vec3};
-use crate::scene::{Scene, View};
+use crate::scene::{Camera, Scene, View};
 use eframe::egui::{self, Pos2, Rect};
 
 /// A part of a line on the screen.
@@ -81,9 +81,8 @@ impl Line {
 impl Projector {
     /// The projection through the centre of the lens of a camera of `scene`, for a film of `size` pixels shown at `image`, seen
     /// through `clip`.
-    pub fn new(scene: &Scene, camera: usize, size: [u32; 2], places: [Rect; 2]) -> Option<Self> {
-        let camera = scene.cameras.get(camera)?;
-        Some(Self::of(View::new(scene, camera, size), scene.origin, places))
+    pub fn new(scene: &Scene, camera: &Camera, size: [u32; 2], places: [Rect; 2]) -> Self {
+        Self::of(View::new(scene, camera, size), scene.origin, places)
     }
 
     /// The projection through the centre of a view's lens; `origin` is the scene's.
@@ -183,7 +182,7 @@ pub fn clip_range(rect: Rect, a: Pos2, b: Pos2) -> Option<[f32; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Camera, Lens};
+    use crate::scene::Lens;
     use eframe::egui::pos2;
 
     fn projector() -> Projector {

@@ -1,9 +1,11 @@
 //! The scene menu: the built-in scenes, a file, and the environment that lights it.
 
+use super::edit::dialog::Dialog;
+use super::edit::recent;
 use super::features;
 use super::live::Live;
 use super::state::{ChosenEnvironment, Opening, State};
-use super::text::Text;
+use super::text::{EditText, Text};
 use super::widgets::labelled;
 use crate::scene::environment::EnvironmentSource;
 use crate::scene::{Scene, builtin};
@@ -40,6 +42,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
             scenes_inside(ui, state, live, scene);
         }
         ui.separator();
+        files(ui, state);
         if let Some(path) = path_field(ui, state, Text::ScenePath, |state| &mut state.scene_field) {
             state.open = Some(Opening::of(path));
             ui.close();
@@ -51,6 +54,26 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     response.response.labelled_by(label.id).on_hover_text(help);
     if live.loading().is_some() {
         ui.spinner().on_hover_text(live.loading_text(state));
+    }
+}
+
+/// The system's dialog, and the files opened last.
+fn files(ui: &mut Ui, state: &mut State) {
+    if Dialog::POSSIBLE && ui.button(state.say(EditText::OpenFile)).on_hover_text(state.say(EditText::HelpOpenFile)).clicked() {
+        state.edit.ask_for_file = true;
+        ui.close();
+    }
+    let recent = recent::existing(&state.prefs);
+    if !recent.is_empty() {
+        ui.label(RichText::new(state.say(EditText::Recent)).small().weak());
+    }
+    for path in recent {
+        let name = Path::new(&path).file_name().map_or_else(|| path.clone(), |name| name.to_string_lossy().into_owned());
+        let clicked = ui.push_id(&path, |ui| ui.selectable_label(false, name).on_hover_text(path.as_str()).clicked()).inner;
+        if clicked {
+            state.open = Some(Opening::of(path));
+            ui.close();
+        }
     }
 }
 

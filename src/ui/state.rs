@@ -1,10 +1,11 @@
 //! Everything a person can change in the window, as plain data: panels show it and edit it, and nothing else happens here.
 
-pub use super::checks::ChecksState;
+pub use super::checks::{Ask, ChecksState};
 pub use super::compare::{CompareState, Mode as CompareMode, Source};
 pub use super::edit::EditState;
 pub use super::export::ExportState;
 pub use super::image_view::ViewState;
+pub use super::inspector::{Bars, InspectState};
 pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};
 pub use super::space::SpaceState;
 pub use super::study::StudyState;
@@ -13,8 +14,8 @@ pub use super::tour::Before;
 use crate::bdpt::{Existence, Settings, Strategy, StrategySet};
 use crate::engine::Mode;
 use crate::film::tonemap::{Look, ToneMap};
-use crate::scene::Lens;
 use crate::scene::environment::EnvironmentSource;
+use crate::scene::{Lens, Pose};
 use eframe::egui;
 
 /// What is looked at; every panel follows it.
@@ -121,6 +122,8 @@ pub struct State {
     pub turning: Option<f64>,
     /// Which of the scene's cameras.
     pub camera: usize,
+    /// Where that camera stands; `None` = where the file has it.
+    pub pose: Option<Pose>,
     /// The lens; `None` = the camera's own.
     pub lens: Option<Lens>,
     /// The next click on the image focuses instead of selecting.
@@ -167,6 +170,8 @@ pub struct State {
     pub export: ExportState,
     /// How things were when the tour's step began.
     pub tour: Option<Before>,
+    /// The inspector's own choices.
+    pub inspect: InspectState,
     /// What there is to say.
     pub messages: Vec<Message>,
 }
@@ -181,6 +186,7 @@ impl State {
             environment_field: String::new(),
             turning: None,
             camera: 0,
+            pose: None,
             lens: None,
             picking_focus: false,
             focus_on: None,
@@ -204,6 +210,7 @@ impl State {
             checks: ChecksState::default(),
             export: ExportState::default(),
             tour: None,
+            inspect: InspectState::default(),
             messages: Vec::new(),
         }
     }
@@ -238,9 +245,9 @@ impl State {
         self.selection.vertex = self.selection.vertex.min(strategy.edges() as usize);
     }
 
-    /// Chooses one of the scene's cameras, with its own lens.
+    /// Chooses one of the scene's cameras, where it stands and with its own lens.
     pub fn choose_camera(&mut self, camera: usize) {
-        (self.camera, self.lens) = (camera, None);
+        (self.camera, self.pose, self.lens) = (camera, None, None);
         (self.picking_focus, self.focus_on) = (false, None);
     }
 

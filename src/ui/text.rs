@@ -30,6 +30,7 @@ macro_rules! texts {
 mod check;
 mod edit;
 mod export;
+mod inspect;
 mod looks;
 mod space;
 mod study;
@@ -37,9 +38,10 @@ mod table;
 mod tour;
 mod view;
 
-pub use check::CheckText;
+pub use check::{CheckText, phrase_text, said};
 pub use edit::EditText;
 pub use export::ExportText;
+pub use inspect::InspectText;
 pub use looks::LooksText;
 pub use space::SpaceText;
 pub use study::StudyText;
@@ -213,6 +215,7 @@ mod tests {
         check(EditText::ALL);
         check(ExportText::ALL);
         check(LooksText::ALL);
+        check(InspectText::ALL);
         check(SpaceText::ALL);
         check(StudyText::ALL);
         check(TourText::ALL);

@@ -1,5 +1,6 @@
 //! The top bar: which scene, which estimator, and the window's own switches.
 
+use super::export;
 use super::keys::{self, Action};
 use super::live::Live;
 use super::state::State;
@@ -9,7 +10,8 @@ use super::{looks_menu, render_menu, scene_menu};
 use crate::bdpt::{HeuristicKind, Strategy, StrategySet};
 use eframe::egui::{Align, ComboBox, DragValue, Layout, Ui, UiBuilder};
 
-const HEURISTICS: &[(HeuristicKind, Text, Text)] = &[
+/// The heuristics on offer: which, its name, what it does.
+pub const HEURISTICS: &[(HeuristicKind, Text, Text)] = &[
     (HeuristicKind::Power, Text::Power, Text::HelpPower),
     (HeuristicKind::Balance, Text::Balance, Text::HelpBalance),
     (HeuristicKind::Max, Text::Max, Text::HelpMax),
@@ -31,6 +33,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
         if ui.button(pause).on_hover_text(keys::hint(state, Text::KeyPause, Action::Pause)).clicked() {
             state.paused = !state.paused;
         }
+        export::show(ui, state, live);
         at_the_right(ui, |ui| window_switches(ui, state));
     });
 }

@@ -76,7 +76,7 @@ pub fn ray_is_marginal(scene: &Scene, ray: &Ray, reach: Reach, free: bool) -> bo
     let size = f64::from(scene.sphere.radius) + o.length();
     // Distances and how far inside the edges.
     let mut hits: Vec<(f64, f64)> = Vec::new();
-    for t in &scene.triangles {
+    for t in scene.triangles.iter() {
         let [p0, p1, p2] = [t.p0, t.p1, t.p2].map(|p| p.as_dvec3());
         let (e1, e2) = (p1 - p0, p2 - p0);
         let n = e1.cross(e2);

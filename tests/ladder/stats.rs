@@ -1,50 +1,7 @@
 //! The statistics the ladder decides by. Every test states its level; the thresholds follow from it.
 
-use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
-
-/// Mean and variance of a stream.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Moments {
-    n: f64,
-    mean: f64,
-    m2: f64,
-    /// Values that were not zero.
-    pub non_zero: u64,
-}
-
-impl Moments {
-    pub fn add(&mut self, x: f64) {
-        self.n += 1.0;
-        let d = x - self.mean;
-        self.mean += d / self.n;
-        self.m2 += d * (x - self.mean);
-        self.non_zero += u64::from(x != 0.0);
-    }
-
-    pub fn mean(&self) -> f64 {
-        self.mean
-    }
-
-    /// Variance of the mean.
-    pub fn error2(&self) -> f64 {
-        self.m2 / (self.n - 1.0) / self.n
-    }
-
-    /// How many standard errors the mean lies from `expected`.
-    pub fn z(&self, expected: f64) -> f64 {
-        (self.mean - expected) / self.error2().sqrt().max(1e-300)
-    }
-}
-
-/// How many standard errors two independent means lie apart.
-pub fn z_between(a: &Moments, b: &Moments) -> f64 {
-    (a.mean() - b.mean()) / (a.error2() + b.error2()).sqrt().max(1e-300)
-}
-
-/// |z| that `tests` independent true hypotheses together exceed with probability `level` (Bonferroni).
-pub fn z_limit(level: f64, tests: usize) -> f64 {
-    Normal::standard().inverse_cdf(1.0 - level / (2.0 * tests as f64))
-}
+pub use bdpt_explorer::report::check::stats::{Moments, z_between, z_limit};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// p-value of Pearson's test; cells that expect fewer than 5 are pooled.
 pub fn chi_squared(observed: &[u64], expected: &[f64]) -> f64 {
@@ -74,10 +31,4 @@ fn chi_squared_sees_a_loaded_die_and_passes_a_fair_one() {
     assert!(chi_squared(&[167, 160, 171, 165, 170, 167], &fair) > 0.01);
     assert!(chi_squared(&[220, 160, 150, 150, 160, 160], &fair) < 1e-3);
     assert!(chi_squared(&[10, 990, 3], &[10.0, 990.0, 0.0]) == 0.0);
-}
-
-#[test]
-fn z_limits_grow_with_the_number_of_tests() {
-    assert!((z_limit(0.05, 1) - 1.96).abs() < 0.01);
-    assert!(z_limit(1e-3, 200) > 4.4 && z_limit(1e-3, 200) < 4.7);
 }

@@ -137,7 +137,7 @@ fn flight_helmet_loads() {
 /// Compares the two frames that a normal map may have.
 fn the_files_tangents_are_those_of_its_coordinates(scene: &Scene) {
     let (mut judged, mut aligned, mut same_sign) = (0, 0, 0);
-    for triangle in &scene.triangles {
+    for triangle in scene.triangles.iter() {
         let own = &scene.attributes.list[triangle.attributes as usize];
         let (t, sign) = scene.attributes.tangents[own.tangents as usize].at(Vec2::splat(1.0 / 3.0));
         let uvs = &scene.attributes.uvs[own.uvs_0 as usize];

@@ -9,6 +9,7 @@ mod captions_emitters;
 mod captions_lens;
 mod captions_surfaces;
 mod defaults;
+mod edit;
 mod environment;
 mod extensions;
 mod extras;

@@ -97,7 +97,8 @@ fn lights_are_called_what_they_are() {
     window.state_mut().state_mut().select_strategy(Strategy::new(1, 2));
     window.run_steps(3);
     window.get_by_label("point light · bulb");
-    assert!(window.query_all_by_label("1.000 (probability)").count() == 2, "the light and the pinhole");
+    let probabilities = window.query_all_by_label("1.000 (probability)").count();
+    assert_eq!(probabilities, 3, "p_light of the light, twice as it is selected and shows its own subpath's; p_eye of the pinhole");
     // Sun, spot and sky: light subpaths start from each of them.
     let mut window = showing(scenes::sky_and_sun());
     click(&mut window, Role::Button, "Path");

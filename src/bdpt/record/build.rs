@@ -1,7 +1,7 @@
 //! Making a record: the sample is run again by the renderer's own code, and written down.
 
 use super::{
-    LookRecord, Measure, PathRecord, PathVertexRecord, RECORD_VERSION, SplitReason, SplitRecord, StrategyRecord, SubpathRecord,
+    EdgeRecord, LookRecord, Measure, PathRecord, PathVertexRecord, RECORD_VERSION, SplitReason, SplitRecord, StrategyRecord, SubpathRecord,
     VertexRecord,
 };
 use crate::bdpt::connect::{Contribution, Sample};
@@ -10,11 +10,13 @@ use crate::bdpt::mis::{log_densities, mis_weights_by_definition};
 use crate::bdpt::path::FullPath;
 use crate::bdpt::reason::Reason;
 use crate::bdpt::strategy::Strategy;
-use crate::bdpt::vertex::{AT_INFINITY, DISCRETE, ON_LENS, ON_LIGHT, Subpath, Vertex};
+use crate::bdpt::vertex::{AT_INFINITY, AT_POINT, DISCRETE, ON_LENS, ON_LIGHT, Subpath, Vertex};
 use crate::bdpt::visibility::segment;
 use crate::math::Vec3;
 use crate::rng::SampleId;
-use crate::scene::{NONE, Scene};
+use crate::scene::light::{AREA, ENVIRONMENT};
+use crate::scene::material::{COAT, CONDUCTOR, DIELECTRIC, THIN_DIELECTRIC};
+use crate::scene::{Material, NONE, Scene};
 use std::f64::consts::LN_10;
 
 /// Re-runs sample `sample` of `pixel` and writes down everything about it. The caller sees to it that the pixel exists.
@@ -30,6 +32,8 @@ pub fn record(context: &Context, pixel: [u32; 2], sample: u32) -> PathRecord {
         version: RECORD_VERSION,
         scene: scene.name.clone(),
         camera: context.view.name.clone(),
+        // A view does not know whether it was moved: who made it fills this in.
+        pose: None,
         pixel,
         sample,
         seed: settings.seed,
@@ -41,19 +45,59 @@ pub fn record(context: &Context, pixel: [u32; 2], sample: u32) -> PathRecord {
         roulette: settings.roulette,
         fresh_ends: settings.fresh_ends,
         raster: traced.raster.to_array(),
-        light: subpath_record(scene, &traced.light),
+        light: subpath_record(context, &traced.light),
         light_end: traced.light.end,
-        eye: subpath_record(scene, &traced.eye),
+        eye: subpath_record(context, &traced.eye),
         eye_end: traced.eye.end,
         strategies,
     }
 }
 
-fn subpath_record(scene: &Scene, subpath: &Subpath) -> SubpathRecord {
-    SubpathRecord { vertices: subpath.vertices.iter().map(|v| vertex_record(scene, v)).collect(), end: subpath.end }
+fn subpath_record(context: &Context, subpath: &Subpath) -> SubpathRecord {
+    let before = |i: usize| i.checked_sub(1).map(|i| &subpath.vertices[i]);
+    let vertices = subpath.vertices.iter().enumerate();
+    SubpathRecord { vertices: vertices.map(|(i, v)| vertex_record(context, v, before(i))).collect(), end: subpath.end }
 }
 
-fn vertex_record(scene: &Scene, v: &Vertex) -> VertexRecord {
+/// The edge from `a` to its neighbour `b`; G as the estimator computes it, from the light side.
+fn edge_record(a: &Vertex, b: &Vertex) -> EdgeRecord {
+    let (w, g) = if b.has(AT_INFINITY) || b.has(AT_POINT) { b.edge_to(a) } else { a.edge_to(b) };
+    let turned = b.has(AT_INFINITY) || b.has(AT_POINT);
+    let infinite = a.has(AT_INFINITY) || b.has(AT_INFINITY);
+    EdgeRecord {
+        length: (!infinite).then(|| (b.position - a.position).length()),
+        direction: (if turned { -w } else { w }).to_array(),
+        geometry_term: g.is_finite().then_some(g),
+    }
+}
+
+/// What the light a vertex lies on emits there.
+fn emission(context: &Context, v: &Vertex) -> Option<Vec3> {
+    let lights = &context.scene.lights;
+    let light = lights.list.get(v.light as usize)?;
+    Some(match light.kind {
+        AREA => light.radiance * context.emission_factor(v),
+        ENVIRONMENT => lights.l_e(light, v.n_g, v.n_g),
+        _ => light.radiance,
+    })
+}
+
+fn look_record(scene: &Scene, v: &Vertex) -> Option<LookRecord> {
+    let material = scene.materials.get(v.material as usize)?;
+    Some(LookRecord {
+        color: v.look.color.to_array(),
+        roughness: v.look.roughness,
+        ggx_alpha: matches!(material.kind, CONDUCTOR | COAT).then(|| Material::alpha(v.look.roughness)),
+        metallic: v.look.metallic,
+        ior: matches!(material.kind, DIELECTRIC | THIN_DIELECTRIC).then_some(material.ior),
+        coat_f0: (material.kind == COAT).then(|| material.f0.to_array()),
+        opacity: v.look.opacity,
+    })
+}
+
+/// A vertex, and the edge to it from the one `before` it in its list.
+fn vertex_record(context: &Context, v: &Vertex, before: Option<&Vertex>) -> VertexRecord {
+    let scene = context.scene;
     let on_surface = v.material != NONE;
     VertexRecord {
         position: scene.in_file(v.position),
@@ -68,14 +112,13 @@ fn vertex_record(scene: &Scene, v: &Vertex) -> VertexRecord {
         light: v.emits().then(|| scene.lights.list[v.light as usize].kind_name()),
         light_name: scene.lights.name(v.light).map(str::to_owned),
         material: on_surface.then(|| scene.material_names[v.material as usize].clone()),
+        material_index: on_surface.then_some(v.material),
+        light_index: v.emits().then_some(v.light),
         model: on_surface.then(|| scene.materials[v.material as usize].kind_name()),
-        look: on_surface.then(|| LookRecord {
-            color: v.look.color.to_array(),
-            roughness: v.look.roughness,
-            metallic: v.look.metallic,
-            opacity: v.look.opacity,
-        }),
+        look: look_record(scene, v),
         emitter: v.emits(),
+        emission: emission(context, v).map(|l| l.to_array()),
+        edge: before.map(|before| edge_record(before, v)),
         alpha: v.alpha.to_array(),
         pdf_fwd: v.pdf_fwd_area,
         // Nothing can hit a pinhole or a light without extent: there is no density to speak of.
@@ -166,7 +209,7 @@ impl StrategyRecord {
             vertex: VertexRecord {
                 // A fresh direction has no place of its own: it is drawn where the line to x₁ comes from.
                 position: context.scene.in_file(if v.has(AT_INFINITY) { before(context, x[1], v.n_g) } else { v.position }),
-                ..vertex_record(context.scene, v)
+                ..vertex_record(context, v, i.checked_sub(1).map(|i| x[i]))
             },
             fresh: (i == 0 && sample.fresh_light.is_some()) || (i == k && sample.fresh_lens.is_some()),
             p_light: (joined && (i == 0 || !v.has(DISCRETE))).then(|| path.p_light[i]),
@@ -181,7 +224,7 @@ impl StrategyRecord {
             self.blocker = context.scene.blocker(&segment(context, &start, b, w)).map(|point| context.scene.in_file(point.position));
         }
         if self.feasible {
-            self.splits = splits(context, sample);
+            self.splits = splits(context, sample, self.s as usize, self.contribution_unweighted);
         }
     }
 }
@@ -191,14 +234,16 @@ fn before(context: &Context, v: &Vertex, direction: Vec3) -> Vec3 {
     v.position - direction * context.view.sphere.beyond(v.position)
 }
 
-/// The path joined last under every strategy that has its number of edges.
-fn splits(context: &Context, sample: &Sample) -> Vec<SplitRecord> {
+/// The path joined last under every strategy that has its number of edges: C* of one is f/(n p), and n is the same for all.
+fn splits(context: &Context, sample: &Sample, made_by: usize, unweighted: [f32; 3]) -> Vec<SplitRecord> {
     let path = &sample.path;
     let ln_p = log_densities(path);
     let weights = mis_weights_by_definition(path, &path.active, &context.settings.heuristic);
     (0..=path.k + 1)
         .map(|s| {
             let reason = split_reason(context, path, s, ln_p[s]);
+            let c = unweighted.map(|c| f64::from(c) * (ln_p[made_by] - ln_p[s]).exp());
+            let c = Some(c).filter(|c| reason.is_none() && c.iter().all(|c| c.is_finite()));
             SplitRecord {
                 s: s as u32,
                 t: (path.k + 1 - s) as u32,
@@ -207,6 +252,8 @@ fn splits(context: &Context, sample: &Sample) -> Vec<SplitRecord> {
                 reason,
                 reason_text: reason.map(SplitReason::text),
                 weight: weights[s],
+                contribution_unweighted: c,
+                contribution: c.unwrap_or_default().map(|c| c * weights[s]),
             }
         })
         .collect()

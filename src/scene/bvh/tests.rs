@@ -171,7 +171,7 @@ fn the_balanced_tree_is_a_tree_and_shallow() {
         for triangles in [(0..count).map(make).collect::<Vec<_>>(), vec![make(0); count as usize]] {
             let (nodes, order) = by_halves(&triangles);
             let ordered: Vec<_> = order.iter().map(|&i| triangles[i as usize]).collect();
-            let bvh = Bvh { depth: depth_of(&nodes), nodes };
+            let bvh = Bvh { depth: depth_of(&nodes), nodes: nodes.into() };
             check_tree(&bvh, &ordered);
             assert!(bvh.depth <= 2 + count.ilog2());
         }

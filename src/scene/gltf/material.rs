@@ -1,12 +1,7 @@
 //! From glTF materials to the models we render; what of a material is not modelled is named in the notes.
 //!
-//! | glTF | kind |
-//! |---|---|
-//! | `KHR_materials_unlit` | unlit: emits its base colour, does not scatter |
-//! | transmission 1, metallic 0, roughness < 0.03 | smooth dielectric, solid if the mesh is closed or has a thickness, else thin |
-//! | metallic 0, `KHR_materials_specular` factor 0 | Lambert, albedo = base colour |
-//! | metallic 1 without a texture of it | mirror where roughness < 0.03, else rough metal, F₀ = base colour |
-//! | anything else | coat: F₀ = specular · min(1, ((ior − 1)/(ior + 1))² · specular colour), F₉₀ = specular; ior 0: F₀ of 1 |
+//! `KHR_materials_unlit` emits its base colour and does not scatter; transmission 1 with metallic 0 and roughness < 0.03 is clear
+//! glass, solid if the mesh is closed or has a thickness, else a sheet; every other model is the recipe's affair (`scene::recipe`).
 //!
 //! Emission = emissive factor × `KHR_materials_emissive_strength`, W m⁻² sr⁻¹, from the front face only unless `doubleSided`.
 //! Alpha counts for MASK and BLEND, and only where it can be below 1 (MASK: below the cutoff).
@@ -14,8 +9,9 @@
 mod factors;
 
 use super::super::material::{TRANSPARENT, UNLIT, VARIES};
+use super::super::recipe::{Glass, Recipe, SMOOTH};
 use super::super::texture::{Image, TextureUse};
-use super::super::{COAT, CONDUCTOR, DIELECTRIC, LAMBERT, MIRROR, Material, NONE, Progress, SceneError, THIN_DIELECTRIC};
+use super::super::{DIELECTRIC, Material, NONE, Progress, SceneError, THIN_DIELECTRIC};
 use super::container::{Document, label, listed};
 use super::images;
 use super::textures::{Reference, TextureTable};
@@ -28,13 +24,12 @@ use std::collections::{BTreeMap, HashMap};
 
 /// Most by which a normal map is scaled: its squares must stay in the range of f32.
 const STEEPEST: f32 = 1e15;
-/// Below this roughness a surface is a Dirac.
-const SMOOTH: f32 = 0.03;
 
 /// A material in the making.
 struct Draft {
     name: String,
     material: Material,
+    recipe: Recipe,
     /// Whether alpha counts, and the cutoff if it masks.
     alpha: Option<Option<f32>>,
     /// The least alpha among the colours of its vertices.
@@ -55,6 +50,7 @@ pub struct Needs {
 /// All materials with what belongs to them.
 pub struct Finished {
     pub list: Vec<(String, Material)>,
+    pub recipes: Vec<Recipe>,
     pub textures: Vec<TextureUse>,
     pub images: Vec<Image>,
 }
@@ -159,14 +155,14 @@ impl<'a> Materials<'a> {
         let uses = self.textures.uses;
         let least = |texture: u32| uses.get(texture as usize).map_or(255, |x| decoded[x.image as usize].least_alpha);
         let finished = |draft: Draft| {
-            let Draft { name, mut material, alpha, vertex_alpha } = draft;
+            let Draft { name, mut material, mut recipe, alpha, vertex_alpha } = draft;
             let lowest = material.opacity * (f32::from(least(material.base_color_texture)) / 255.0) * vertex_alpha;
             // Interpolation rounds: what just reaches the cutoff counts as transparent.
             let transparent = alpha.is_some_and(|cutoff| lowest < cutoff.map_or(1.0, |cutoff| cutoff.min(1e9) * (1.0 + 1e-6)));
             if transparent {
                 if material.kind == DIELECTRIC {
                     // What enters through the surface and leaves through a hole would keep the radiance of the inside.
-                    material.kind = THIN_DIELECTRIC;
+                    (material.kind, recipe.glass) = (THIN_DIELECTRIC, Some(Glass::Thin));
                     notes.push(format!("Glass with holes has no inside; it was taken for a sheet: '{name}'."));
                 }
                 material.flags |= TRANSPARENT;
@@ -176,10 +172,10 @@ impl<'a> Materials<'a> {
                 // Its colour is its emission.
                 material.base_color_texture = if material.has(UNLIT) { NONE } else { material.base_color_texture };
             }
-            (name, material.finished())
+            ((name, material.finished()), recipe)
         };
-        let list = self.drafts.into_iter().map(finished).collect();
-        Ok(Finished { list, textures: uses, images: decoded.into_iter().map(|decoded| decoded.image).collect() })
+        let (list, recipes) = self.drafts.into_iter().map(finished).unzip();
+        Ok(Finished { list, recipes, textures: uses, images: decoded.into_iter().map(|decoded| decoded.image).collect() })
     }
 
     fn make(&mut self, json: &Json, name: String, solid: bool) -> Result<Draft, String> {
@@ -196,16 +192,17 @@ impl<'a> Materials<'a> {
         let opacity = if alpha.is_some() { f.opacity } else { 1.0 };
         let sided = Material { two_sided: u32::from(json.double_sided), opacity, base_color_texture, ..Material::lambert(f.color) };
         let unlit = json.extensions.as_ref().is_some_and(|e| e.unlit.is_some());
-        let material = if unlit {
-            Material { color: Vec3::ZERO, emission: f.color, emissive_texture: base_color_texture, flags: UNLIT, ..sided }
+        let (material, recipe) = if unlit {
+            let material = Material { color: Vec3::ZERO, emission: f.color, emissive_texture: base_color_texture, flags: UNLIT, ..sided };
+            (material, Recipe { emission: f.color, ..f.recipe(None) })
         } else {
             self.scattering(json, &f, solid, sided, &name)?
         };
-        Ok(Draft { name, material, alpha, vertex_alpha: 1.0 })
+        Ok(Draft { name, material, recipe, alpha, vertex_alpha: 1.0 })
     }
 
     /// A material that scatters, and may emit.
-    fn scattering(&mut self, json: &Json, f: &Factors, solid: bool, sided: Material, name: &str) -> Result<Material, String> {
+    fn scattering(&mut self, json: &Json, f: &Factors, solid: bool, sided: Material, name: &str) -> Result<(Material, Recipe), String> {
         let smooth = f.roughness < SMOOTH;
         let clear = f.transmission >= 1.0 && !f.transmission_varies && f.metallic == 0.0 && smooth;
         let emissive = json.emissive_texture.as_ref().filter(|_| f.emission != Vec3::ZERO);
@@ -218,34 +215,28 @@ impl<'a> Materials<'a> {
             Some(_) => return Err("the scale of its normal texture is not finite; repair the material and export it again".into()),
             None => (NONE, 1.0),
         };
-        let material = Material { emission: f.emission, emissive_texture, normal_texture, normal_scale, ..sided };
+        let material = Material { emissive_texture, normal_texture, normal_scale, ..sided };
         if f.transmission > 0.0 && f.metallic < 1.0 {
             match f.ior {
-                Some(ior) if clear => {
+                Some(_) if clear => {
                     if f.f0_scale != Vec3::ONE || f.f90 != 1.0 {
                         self.remarks.add("The specular factors of glass were ignored", name);
                     }
                     if factors::absorbs(json) {
                         self.remarks.add("The absorption inside glass was ignored", name);
                     }
-                    let kind = Material::dielectric(f.color, ior, !solid).kind;
-                    return Ok(Material { kind, ior, ..material });
+                    let recipe = f.recipe(Some(if solid { Glass::Solid } else { Glass::Thin }));
+                    return Ok((recipe.material(&material), recipe));
                 }
                 None if clear => self.remarks.add("Shown opaque because glass of an index of refraction of 0 is not modelled", name),
                 _ => self.remarks.add("Shown opaque because rough or partial transmission is not modelled", name),
             }
         }
-        if f.metallic == 0.0 && f.f90 == 0.0 {
-            return Ok(Material { kind: LAMBERT, ..material });
-        }
-        let varied = json.pbr_metallic_roughness.metallic_roughness_texture.as_ref();
+        let recipe = f.recipe(None);
+        // Where neither metal nor gloss counts, nobody reads what varies them.
+        let varied = json.pbr_metallic_roughness.metallic_roughness_texture.as_ref().filter(|_| !recipe.is_lambert());
         let metallic_roughness_texture = self.texture(varied, "metallic-roughness", false, name)?;
-        let glossy = Material { roughness: f.roughness, metallic: f.metallic, metallic_roughness_texture, ..material };
-        if f.metallic == 1.0 && metallic_roughness_texture == NONE {
-            return Ok(Material { kind: if smooth { MIRROR } else { CONDUCTOR }, ..glossy });
-        }
-        let reflectance = f.ior.map_or(1.0, |ior| ((ior - 1.0) / (ior + 1.0)).powi(2));
-        Ok(Material { kind: COAT, f0: (f.f0_scale * reflectance).min(Vec3::ONE) * f.f90, f90: f.f90, ..glossy })
+        Ok((recipe.material(&Material { metallic_roughness_texture, ..material }), recipe))
     }
 
     /// The index of a texture, [`NONE`] without one.

@@ -15,6 +15,7 @@ pub use desk::{Desk, Replayed};
 
 use super::darkroom::{Darkroom, Place, Print};
 use super::live::Live;
+use super::mark_pick;
 use super::overlay;
 use super::projection::Projector;
 use super::state::State;
@@ -79,7 +80,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, desk: &mut Desk) -> Rec
     let panel = ui.available_rect_before_wrap();
     ui.advance_cursor_after_rect(panel);
     let response = ui.interact(panel, id(), Sense::click_and_drag());
-    let image = navigate::show(ui, state, &response, panel);
+    let image = navigate::show(ui, state, live, &response, panel);
     peek(ui, state, &response);
     name(ui, state, &response);
     let painter = ui.painter().with_clip_rect(panel);
@@ -90,9 +91,13 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, desk: &mut Desk) -> Rec
     digits::show(ui, &painter, state, live, (&pair, [panel, image]));
     crosshair(&painter, state, image);
     if let Some(scene) = live.scene()
-        && let Some(projector) = Projector::new(scene, state.camera, state.size, [image, panel])
+        && let Some(camera) = live.camera(state)
     {
+        let projector = Projector::new(scene, &camera, state.size, [image, panel]);
         overlay::show(ui, &painter, state, live, &projector);
+        if let Some(record) = live.record(state) {
+            mark_pick::hover(ui, state, record, &projector);
+        }
     }
     scale::show(ui, state, &pair, panel);
     plates::show(ui, state, live, (&pair, panel, marked));

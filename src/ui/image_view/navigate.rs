@@ -1,10 +1,13 @@
 //! Zoom around the cursor, pan, and the click that picks a pixel.
 
+use super::super::edit;
+use super::super::live::Live;
+use super::super::mark_pick;
 use super::super::state::{Placement, State};
 use eframe::egui::{Rect, Response, Ui, Vec2, vec2};
 
 /// Zoom, pan and pick; where the film ends up.
-pub fn show(ui: &Ui, state: &mut State, response: &Response, panel: Rect) -> Rect {
+pub fn show(ui: &Ui, state: &mut State, live: &Live, response: &Response, panel: Rect) -> Rect {
     let size = vec2(state.size[0] as f32, state.size[1] as f32);
     let (mut zoom, mut centre) = match state.placement {
         Placement::Fit => (fit_zoom(size, panel), size * 0.5),
@@ -14,11 +17,14 @@ pub fn show(ui: &Ui, state: &mut State, response: &Response, panel: Rect) -> Rec
     if moved {
         zoom = 1.0 / ui.pixels_per_point();
     }
-    if response.dragged() {
+    // The camera's hand comes first: what it takes does not move the picture.
+    let image = Rect::from_min_size(panel.center() - centre * zoom, size * zoom);
+    let steered = edit::hand::steer(ui, state, live, response, image);
+    if response.dragged() && !steered {
         centre -= response.drag_delta() / zoom;
         moved |= response.drag_delta() != Vec2::ZERO;
     }
-    if let Some(cursor) = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer()) {
+    if let Some(cursor) = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer() && !steered) {
         let factor = ui.input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y * 0.004).exp());
         if factor != 1.0 {
             let under = centre + (cursor - panel.center()) / zoom;
@@ -34,6 +40,9 @@ pub fn show(ui: &Ui, state: &mut State, response: &Response, panel: Rect) -> Rec
     }
     let image = Rect::from_min_size(panel.center() - centre * zoom, size * zoom);
     if let Some(cursor) = response.interact_pointer_pos().filter(|_| response.clicked()) {
+        if !state.picking_focus && mark_pick::click(ui, state, live, [image, panel], cursor) {
+            return image;
+        }
         let at = (cursor - image.min) / zoom;
         if at.x >= 0.0 && at.y >= 0.0 && at.x < size.x && at.y < size.y {
             if state.picking_focus {

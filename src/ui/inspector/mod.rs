@@ -1,9 +1,20 @@
 //! The inspector: how the selected sample of the selected pixel was made.
 
+mod card;
 mod path;
+mod pick;
+mod search;
 mod splits;
 mod strategies;
+mod what_if;
+mod words;
 
+pub use pick::{eye_vertex, light_vertex};
+pub use search::{Goal, Search, start as start_search, sync as sync_search};
+pub use splits::Bars;
+pub use what_if::weights;
+
+use super::cite::cite;
 use super::keys::{self, Action};
 use super::live::Live;
 use super::state::{State, Tab};
@@ -11,9 +22,22 @@ use super::text::{Text, absence_text, fill, reason_text};
 use super::widgets::{full_name, labelled};
 use super::{checks, edit, format};
 use crate::bdpt::record::StrategyRecord;
-use crate::bdpt::{Existence, PathRecord, Strategy};
+use crate::bdpt::{Existence, Heuristic, PathRecord, Strategy};
 use crate::math::Vec3;
-use eframe::egui::{self, DragValue, Label, RichText, ScrollArea, Ui};
+use eframe::egui::{self, DragValue, Label, Response, RichText, ScrollArea, Ui};
+
+/// The inspector's own choices.
+#[derive(Clone, Debug, Default)]
+pub struct InspectState {
+    /// What the bars of the splits show.
+    pub bars: Bars,
+    /// The heuristic that weighs the splits instead of the image's.
+    pub what_if: Option<Heuristic>,
+    /// The search for a sample that is under way.
+    pub search: Option<Search>,
+    /// What the last one said when it found nothing.
+    pub nothing_found: Option<String>,
+}
 
 /// Shows the inspector.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
@@ -74,17 +98,32 @@ fn header(ui: &mut Ui, state: &mut State, live: &Live) {
         if ui.button(state.say(Text::Next)).on_hover_text(hint.as_str()).clicked() {
             keys::step_sample(state, false);
         }
-        if let Some(record) = live.record(state) {
-            let feasible = record.strategies.iter().filter(|x| x.feasible).count().to_string();
-            let existence = live.existence();
-            let all = record.strategies.iter().filter(|x| existence.absence(x.strategy()).is_none()).count().to_string();
-            ui.label(RichText::new(fill(state.say(Text::FeasibleCount), &[&feasible, &all])).weak());
-        }
+        search::buttons(ui, state);
     });
     if let Some(record) = live.record(state) {
+        let feasible = record.strategies.iter().filter(|x| x.feasible).count().to_string();
+        let existence = live.existence();
+        let all = record.strategies.iter().filter(|x| existence.absence(x.strategy()).is_none()).count().to_string();
         let sum = format::rgb(on_its_pixel(record).to_array());
-        let words = RichText::new(fill(state.say(Text::SampleAdds), &[&sum]));
-        ui.add(Label::new(words).truncate()).on_hover_text(state.say(Text::HelpSampleAdds));
+        ui.horizontal_wrapped(|ui| {
+            let adds = ui.add(Label::new(fill(state.say(Text::SampleAdds), &[&sum]))).on_hover_text(state.say(Text::HelpSampleAdds));
+            cite(&adds, || "adds:/strategies".to_owned());
+            let count = ui.label(RichText::new(fill(state.say(Text::FeasibleCount), &[&feasible, &all])).weak());
+            cite(&count, || "count:/strategies".to_owned());
+        });
+    }
+}
+
+/// Scrolls what is selected into sight when something else was selected, on another page or elsewhere.
+fn keep_in_sight(ui: &Ui, response: &Response, chosen: bool, state: &State) {
+    if !chosen {
+        return;
+    }
+    let id = egui::Id::unique(("in sight", state.prefs.tab));
+    let now = (state.prefs.sort, state.walk, state.selection);
+    if ui.data(|data| data.get_temp(id)) != Some(now) {
+        ui.data_mut(|data| data.insert_temp(id, now));
+        response.scroll_to_me(None);
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::bdpt::record::{PathRecord, StrategyRecord};
 use crate::bdpt::{Existence, Reason, Strategy};
+use crate::ui::cite::{Numbers, cite};
 use crate::ui::state::{Sort, State};
 use crate::ui::text::{Text, absence_short, fill, reason_short};
 use crate::ui::widgets::{bar, cell_text, full_name, pair, role_help, role_name, swatch};
@@ -31,20 +32,21 @@ pub fn show(ui: &mut Ui, state: &mut State, existence: &Existence, record: &Path
     sort_buttons(ui, state);
     ui.spacing_mut().item_spacing.y = 1.0;
     heads(ui, state);
-    let mut rows: Vec<&StrategyRecord> = record.strategies.iter().collect();
+    let mut rows: Vec<(usize, &StrategyRecord)> = record.strategies.iter().enumerate().collect();
+    let bright = |x: &StrategyRecord| format::luminance(x.contribution);
     match state.prefs.sort {
         Sort::Length => {}
-        Sort::Weight => rows.sort_by(|a, b| b.mis_weight.total_cmp(&a.mis_weight)),
-        Sort::Contribution => rows.sort_by(|a, b| format::luminance(b.contribution).total_cmp(&format::luminance(a.contribution))),
+        Sort::Weight => rows.sort_by(|(_, a), (_, b)| b.mis_weight.total_cmp(&a.mis_weight)),
+        Sort::Contribution => rows.sort_by(|(_, a), (_, b)| bright(b).total_cmp(&bright(a))),
     }
     let mut edges = 0;
-    for strategy in rows {
+    for (index, strategy) in rows {
         if state.prefs.sort == Sort::Length && strategy.strategy().edges() != edges {
             edges = strategy.strategy().edges();
             ui.add_space(4.0);
             ui.label(RichText::new(fill(state.say(Text::LengthGroup), &[&edges.to_string()])).small().weak());
         }
-        row(ui, state, existence, strategy);
+        row(ui, state, existence, (index, strategy));
     }
 }
 
@@ -76,7 +78,7 @@ fn heads(ui: &mut Ui, state: &State) {
     ui.interact(columns.contribution, id, Sense::hover()).on_hover_text(state.say(Text::HelpHeadContribution));
 }
 
-fn row(ui: &mut Ui, state: &mut State, existence: &Existence, record: &StrategyRecord) {
+fn row(ui: &mut Ui, state: &mut State, existence: &Existence, (index, record): (usize, &StrategyRecord)) {
     let strategy = record.strategy();
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
     let chosen = strategy == state.selection.strategy;
@@ -86,8 +88,9 @@ fn row(ui: &mut Ui, state: &mut State, existence: &Existence, record: &StrategyR
     if response.clicked() {
         state.select_strategy(strategy);
     }
+    super::keep_in_sight(ui, &response, chosen, state);
     if ui.is_rect_visible(rect) {
-        paint(ui, state, (record, why), rect, &response);
+        paint(ui, state, (index, record, why), rect, &response);
     }
     let lang = state.prefs.lang;
     response.on_hover_ui(|ui| {
@@ -97,7 +100,7 @@ fn row(ui: &mut Ui, state: &mut State, existence: &Existence, record: &StrategyR
             Some(why) => {
                 ui.label(why);
             }
-            None => numbers(ui, state, record),
+            None => numbers(ui, state, (index, record)),
         }
     });
 }
@@ -125,7 +128,7 @@ fn spoken(state: &State, record: &StrategyRecord, why: Option<&str>) -> String {
     format!("{name}: {rest}{hidden}")
 }
 
-fn paint(ui: &Ui, state: &State, (record, why): (&StrategyRecord, Option<&str>), rect: Rect, response: &Response) {
+fn paint(ui: &Ui, state: &State, (index, record, why): (usize, &StrategyRecord, Option<&str>), rect: Rect, response: &Response) {
     let (painter, visuals) = (ui.painter(), ui.visuals());
     let chosen = record.strategy() == state.selection.strategy;
     if chosen || response.hovered() || response.has_focus() {
@@ -151,18 +154,21 @@ fn paint(ui: &Ui, state: &State, (record, why): (&StrategyRecord, Option<&str>),
         cell_text(painter, wide, why, FontId::proportional(12.5), weak);
         return;
     }
+    let place = |name: &str| format!("/strategies/{index}/{name}");
+    let numbers = Numbers { painter: painter.clone(), font: small.clone(), colour: text };
     let weight = f64::from(record.mis_weight);
     let middle = columns.weight.center().y;
     let number = 46.0;
     let gauge = Rect::from_min_max(pos2(columns.weight.left(), middle - 4.0), pos2(columns.weight.right() - number, middle + 4.0));
     bar(painter, visuals, gauge, record.mis_weight, theme::bar(visuals));
-    cell_text(painter, columns.weight.with_min_x(gauge.right() + 6.0), &format::weight(weight), small.clone(), text);
+    numbers.cell(ui, columns.weight.with_min_x(gauge.right() + 6.0), &format::weight(weight), &place("mis_weight"));
     let square = Rect::from_center_size(pos2(columns.contribution.left() + 7.0, middle), vec2(13.0, 13.0));
     swatch(painter, visuals, square, pictures::hue(record.contribution));
     let luminance = format::short(f64::from(format::luminance(record.contribution)));
-    cell_text(painter, columns.contribution.with_min_x(square.right() + 6.0), &luminance, small.clone(), text);
+    numbers.cell(ui, columns.contribution.with_min_x(square.right() + 6.0), &luminance, &format!("luminance:{}", place("contribution")));
     if let Some([x, y]) = record.raster.filter(|_| !record.strategy().stays_in_pixel()) {
-        cell_text(painter, columns.raster, &format!("{},{}", x.floor(), y.floor()), small, weak);
+        let numbers = Numbers { colour: weak, ..numbers };
+        numbers.cell(ui, columns.raster, &format!("{},{}", x.floor(), y.floor()), &format!("floor:{}", place("raster")));
     }
 }
 
@@ -176,22 +182,23 @@ fn name_column(painter: &Painter, state: &State, strategy: Strategy, column: Rec
     }
 }
 
-fn numbers(ui: &mut Ui, state: &State, record: &StrategyRecord) {
+fn numbers(ui: &mut Ui, state: &State, (index, record): (usize, &StrategyRecord)) {
     egui::Grid::new("numbers").num_columns(2).spacing(vec2(14.0, 3.0)).show(ui, |ui| {
-        let mut line = |name: Text, value: String| {
+        let mut line = |name: Text, value: String, place: &str| {
             ui.label(state.say(name));
-            ui.label(RichText::new(value).monospace());
+            let value = ui.label(RichText::new(value).monospace());
+            cite(&value, || format!("/strategies/{index}/{place}"));
             ui.end_row();
         };
-        line(Text::NumberWeight, format::number(f64::from(record.mis_weight)));
-        line(Text::NumberContribution, format::rgb(record.contribution));
-        line(Text::NumberUnweighted, format::rgb(record.contribution_unweighted));
-        line(Text::NumberConnection, format::rgb(record.connection_term));
+        line(Text::NumberWeight, format::number(f64::from(record.mis_weight)), "mis_weight");
+        line(Text::NumberContribution, format::rgb(record.contribution), "contribution");
+        line(Text::NumberUnweighted, format::rgb(record.contribution_unweighted), "contribution_unweighted");
+        line(Text::NumberConnection, format::rgb(record.connection_term), "connection_term");
         if let Some(p) = record.p {
-            line(Text::NumberDensity, format!("10^{p:.3}"));
+            line(Text::NumberDensity, format!("10^{p:.3}"), "p");
         }
         if let Some([x, y]) = record.raster {
-            line(Text::NumberRaster, format!("{x:.2}  {y:.2}"));
+            line(Text::NumberRaster, format!("{x:.2}  {y:.2}"), "raster");
         }
     });
 }

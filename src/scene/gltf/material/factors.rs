@@ -1,6 +1,8 @@
 //! The numbers of a glTF material, judged and brought into their ranges; what had to be changed is remarked.
 
+use super::super::super::Recipe;
 use super::super::super::environment::MAX_RADIANCE;
+use super::super::super::recipe::Glass;
 use crate::math::Vec3;
 use ::gltf::json::material::Material as Json;
 
@@ -76,6 +78,14 @@ impl Factors {
             f90,
             emission: emission(json, remark)?,
         })
+    }
+}
+
+impl Factors {
+    /// What a material of these numbers is made from.
+    pub fn recipe(&self, glass: Option<Glass>) -> Recipe {
+        let Self { color, metallic, roughness, ior, f0_scale, f90, emission, .. } = *self;
+        Recipe { color, emission, roughness, metallic, ior, f0_scale, f90, glass }
     }
 }
 

@@ -1,0 +1,132 @@
+//! The scene on show: loaded, loaded again when its file changes, and with the edits of the person.
+
+use super::super::edit::dialog::Answer;
+use super::super::edit::{recent, reload};
+use super::super::loader::Failure;
+use super::super::state::{Opening, State};
+use super::super::text::{EditText, Text, fill};
+use super::Live;
+use crate::scene::{Scene, SceneEdits, builtin, edit};
+use std::sync::Arc;
+
+/// A scene, and what it was made from.
+#[derive(Clone)]
+pub(super) struct Shown {
+    /// As its file has it.
+    pub file: Arc<Scene>,
+    /// With the edits.
+    pub scene: Arc<Scene>,
+    /// The edits.
+    pub edits: SceneEdits,
+    /// What it was made from.
+    pub opening: Opening,
+}
+
+impl Shown {
+    /// A scene as its file has it.
+    pub fn new(scene: Arc<Scene>, opening: Opening) -> Self {
+        Self { file: scene.clone(), scene, edits: SceneEdits::default(), opening }
+    }
+}
+
+impl Live {
+    /// Takes what was loaded, or says why nothing was.
+    pub(super) fn finish_loading(&mut self, state: &mut State) -> bool {
+        let Some((opening, result)) = self.loader.take() else { return false };
+        match result {
+            Ok(scene) => {
+                // The scene shown instead of one that could not be read is no cure.
+                if self.shown.is_some() {
+                    state.retract(self.unreadable.take());
+                }
+                // What was to be said of the scene before is no longer of use.
+                state.retract(self.noted.take());
+                if !scene.notes.is_empty() {
+                    let note = format!("{}: {}", scene.name, scene.notes.join(" "));
+                    self.noted = Some(note.clone());
+                    state.tell(false, note);
+                }
+                // The same scene in another light, or read again, keeps its camera and what was changed.
+                let same = |old: &Opening| (&old.scene, &old.inside) == (&opening.scene, &opening.inside);
+                if self.opened().is_some_and(same) {
+                    let (edits, lost) = state.edit.edits.fitted(&scene);
+                    state.edit.edits = edits;
+                    if !lost.is_empty() {
+                        state.tell(false, fill(state.say(EditText::EditsLost), &[&lost.join(", ")]));
+                    }
+                } else {
+                    state.edit.forget();
+                    state.choose_camera(0);
+                }
+                if state.camera >= scene.cameras.len() {
+                    state.choose_camera(0);
+                }
+                recent::remember(&mut state.prefs, &opening.scene);
+                // A scene that was never seen is not paused before its first pass.
+                state.paused = false;
+                self.shown = Some(Shown::new(Arc::new(scene), opening));
+            }
+            Err(failure) => {
+                let error = match failure {
+                    Failure::Refused(error) => error.to_string(),
+                    Failure::Died => fill(state.say(Text::LoaderDied), &[&opening.scene]),
+                };
+                // A new version of the file on show: the old picture stays.
+                let reloaded = self.reload.follows(&opening.scene) && self.opened() == Some(&opening);
+                let error = if reloaded { fill(state.say(EditText::ReloadFailed), &[&error]) } else { error };
+                state.retract(self.unreadable.replace(error.clone()));
+                state.tell(true, error);
+                // With nothing on show yet, show something.
+                if self.shown.is_none()
+                    && let Some(first) = builtin::list().first()
+                {
+                    self.load(Opening::of(first.name));
+                }
+            }
+        }
+        true
+    }
+
+    /// Starts loading; from the version of the file that is read now, a change to it counts.
+    pub(super) fn load(&mut self, opening: Opening) {
+        self.reload.reading(&opening.scene);
+        self.loader.start(opening);
+    }
+
+    /// The file dialog's answer, and a new version of the file on show.
+    pub(super) fn look_for_files(&mut self, state: &mut State) {
+        if std::mem::take(&mut state.edit.ask_for_file) {
+            self.dialog.open(state.say(EditText::OpenTitle), &self.wake);
+        }
+        match self.dialog.answer() {
+            Some(Answer::File(path)) => state.open = Some(Opening::of(path.display().to_string())),
+            Some(Answer::Unavailable) => state.tell(false, state.say(EditText::NoDialog).to_owned()),
+            Some(Answer::Cancelled) | None => {}
+        }
+        let Some(opening) = self.opened().filter(|opening| self.reload.follows(&opening.scene)).cloned() else { return };
+        self.wake.within(reload::INTERVAL);
+        if self.loading().is_none() && self.reload.changed(&opening.scene) {
+            self.load(opening);
+        }
+    }
+
+    /// Makes of the file's scene what the edits say; at most once for each picture while something is dragged.
+    pub(super) fn sync_edits(&mut self, state: &mut State, loaded: bool) {
+        let stale = self.shown.as_ref().is_some_and(|shown| shown.edits != state.edit.edits);
+        if !stale || (!loaded && self.picture_is_coming()) {
+            return;
+        }
+        let Some(shown) = &mut self.shown else { return };
+        match edit::apply(&shown.file, &state.edit.edits) {
+            Ok(scene) => {
+                (shown.scene, shown.edits) = (Arc::new(scene), state.edit.edits.clone());
+                state.retract(self.refused_edit.take());
+            }
+            Err(error) => {
+                state.edit.edits = shown.edits.clone();
+                state.retract(self.refused_edit.replace(error.0.clone()));
+                state.tell(true, error.0);
+            }
+        }
+    }
+}
