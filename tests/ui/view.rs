@@ -116,6 +116,7 @@ fn the_value_under_the_pointer_is_the_films() {
 #[test]
 fn the_selected_pixel_has_a_mean_and_its_sample_a_value() {
     let mut window = cornell();
+    wide(&mut window);
     // Where nothing comes from other pixels' samples, the mean is that of the samples.
     window.state_mut().state_mut().settings.strategies = StrategySet::where_(|x| x.t >= 2 && x.s <= 1);
     window.state_mut().state_mut().select_pixel(20, 41);
