@@ -17,6 +17,8 @@ use std::time::{Duration, Instant};
 
 #[path = "ui/checks.rs"]
 mod checks;
+#[path = "ui/compare.rs"]
+mod compare;
 #[path = "ui/edit.rs"]
 mod edit;
 #[path = "ui/existence.rs"]

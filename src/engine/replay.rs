@@ -152,3 +152,28 @@ fn open(job: &Job) -> Result<Probe, String> {
     let task = Task { scene: &job.scene, view: &view, settings: &job.settings, plan: &plan, crop: crate::film::Rect::full(job.size) };
     block_on(Probe::new(&gpu, &task, (layouts, kernels))).map_err(|error| error.to_string())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::builtin;
+
+    #[test]
+    fn only_what_differs_by_more_than_rounding_has_diverged() {
+        let job = Job { size: [16, 16], ..Job::new(Arc::new(builtin::open("cornell").unwrap())) };
+        let lit = |n: u32| record(&job, [8, 12], n).unwrap();
+        let own = (0..50).map(lit).find(|x| x.strategies.iter().filter(|x| x.feasible).count() > 3).unwrap();
+        let mut device: BTreeMap<usize, Vec3> = BTreeMap::new();
+        for x in own.strategies.iter().filter(|x| x.feasible) {
+            *device.entry(x.strategy().index()).or_default() += Vec3::from(x.contribution);
+        }
+        assert_eq!(Comparison::of(&device, &own).error, 0.0);
+        let (&index, &value) = device.iter().max_by(|a, b| a.1.max_element().total_cmp(&b.1.max_element())).unwrap();
+        let changed = |value: Vec3| Comparison::of(&device.iter().map(|(&i, &v)| (i, if i == index { value } else { v })).collect(), &own);
+        assert!(!changed(value * (1.0 + 0.5 * TOLERANCE)).diverged());
+        let twice = changed(value * 2.0);
+        assert!(twice.diverged() && twice.strategy.index() == index && twice.gpu == value * 2.0 && twice.cpu == value);
+        assert!(changed(Vec3::ZERO).diverged() && changed(Vec3::NAN).diverged());
+        assert!(Comparison::of(&BTreeMap::new(), &own).diverged());
+    }
+}

@@ -214,7 +214,7 @@ mod tests {
     use std::sync::Arc;
 
     fn order(pictures: &[Vec<Vec3>], recipe: Recipe) -> Ready {
-        let content = |pixels: &Vec<Vec3>| Content::Kept(Arc::new(Picture { size: [3, 1], pixels: pixels.clone() }));
+        let content = |pixels: &Vec<Vec3>| Content::Kept(Arc::new(Picture { size: [3, 1], pixels: pixels.clone() }), None);
         let key = Key { from: Vec::new(), recipe };
         develop(Order { place: Place::A, key, contents: pictures.iter().map(content).collect() })
     }

@@ -1,4 +1,4 @@
-//! The image view by its labels: numbers that are the film's, pictures in large, and two pictures compared.
+//! The image view by its labels: numbers that are the film's, looks, and pictures in large.
 
 use super::*;
 use bdpt_explorer::bdpt::StrategySet;
@@ -10,7 +10,7 @@ use bdpt_explorer::ui::state::{CompareMode, Placement, Source};
 use bdpt_explorer::ui::text::{ViewText, fill};
 
 /// The window's rendering stands still, after at least a pass.
-fn still(window: &mut Harness<'static, App>) {
+pub(super) fn still(window: &mut Harness<'static, App>) {
     until(window, "a pass", |app| app.live().first_pass().is_none() && app.live().frame().is_some());
     window.state_mut().state_mut().paused = true;
     window.run_steps(2);
@@ -25,13 +25,19 @@ fn still(window: &mut Harness<'static, App>) {
     panic!("it goes on");
 }
 
-fn at(window: &Harness<'static, App>, [x, y]: [u32; 2]) -> Vec3 {
+/// With room for the whole toolbar.
+pub(super) fn wide(window: &mut Harness<'static, App>) {
+    window.state_mut().state_mut().prefs.space_open = false;
+    window.run_steps(3);
+}
+
+pub(super) fn at(window: &Harness<'static, App>, [x, y]: [u32; 2]) -> Vec3 {
     let frame = window.state().live().frame().expect("a frame");
     frame.image[(y * frame.size[0] + x) as usize]
 }
 
 /// Numbers as the window writes them, four digits.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 {
         return "0".to_owned();
@@ -42,49 +48,26 @@ fn number(value: f64) -> String {
     format!("{value:.*}", (3 - size.log10().floor() as i32).max(0) as usize)
 }
 
-fn written(value: Vec3) -> String {
+pub(super) fn written(value: Vec3) -> String {
     value.to_array().map(|v| number(f64::from(v))).join("  ")
 }
 
 /// The status bar's words about what is under the pointer.
-fn under_pointer(window: &Harness<'static, App>, [x, y]: [u32; 2]) -> String {
+pub(super) fn under_pointer(window: &Harness<'static, App>, [x, y]: [u32; 2]) -> String {
     let begin = format!("at {x}, {y}: ");
     let node = window.get_by_label_contains(&begin).accesskit_node();
     let label = node.label().or(node.value()).unwrap_or_default();
     label.strip_prefix(&begin).expect("it begins like that").to_owned()
 }
 
-fn hover(window: &mut Harness<'static, App>, pixel: [u32; 2]) {
+pub(super) fn hover(window: &mut Harness<'static, App>, pixel: [u32; 2]) {
     let at = window.state().on_screen(pixel);
     window.hover_at(at);
     window.run_steps(3);
 }
 
-fn has(window: &Harness<'static, App>, part: &str) -> bool {
+pub(super) fn has(window: &Harness<'static, App>, part: &str) -> bool {
     window.query_all_by_label_contains(part).next().is_some()
-}
-
-/// The Cornell box standing still, a picture of it kept, and the path tracer standing still after it; the picture kept is B.
-fn two_pictures() -> Harness<'static, App> {
-    let mut window = cornell();
-    still(&mut window);
-    press(&mut window, Key::K);
-    window.state_mut().state_mut().settings.strategies = StrategySet::path_tracer();
-    window.state_mut().state_mut().paused = false;
-    let before = generation(&window);
-    window.run_steps(2);
-    until(&mut window, "the path tracer's frame", |app| {
-        app.live().frame().is_some_and(|f| f.generation > before && f.generation == app.live().engine().expect("an engine").generation())
-    });
-    still(&mut window);
-    press(&mut window, Key::C);
-    assert!(window.state().state().compare.open);
-    assert_eq!(window.state().state().compare.b, Some(Source::Kept(1)));
-    window
-}
-
-fn kept(window: &Harness<'static, App>) -> Vec<Vec3> {
-    window.state().state().compare.kept[0].picture.pixels.clone()
 }
 
 #[test]
@@ -133,6 +116,7 @@ fn the_value_under_the_pointer_is_the_films() {
 #[test]
 fn the_selected_pixel_has_a_mean_and_its_sample_a_value() {
     let mut window = cornell();
+    wide(&mut window);
     // Where nothing comes from other pixels' samples, the mean is that of the samples.
     window.state_mut().state_mut().settings.strategies = StrategySet::where_(|x| x.t >= 2 && x.s <= 1);
     window.state_mut().state_mut().select_pixel(20, 41);
@@ -152,7 +136,7 @@ fn the_selected_pixel_has_a_mean_and_its_sample_a_value() {
     let of = |n: u32| (0..n).map(alone).sum::<Vec3>() / n as f32;
     let found = [spp.floor() as u32, spp.ceil() as u32].iter().any(|n| (of(*n) - mean).abs().max_element() <= 1e-4 * mean.max_element());
     assert!(found, "{mean} is the mean of no {spp} samples");
-    window.get_by_label(&written(mean));
+    assert!(has(&window, &format!("{}  ± ", written(mean))), "the mean with its interval");
     let sample = (0..200).find(|n| alone(*n).max_element() > 0.0).expect("a sample with light");
     window.state_mut().state_mut().selection.sample = sample;
     window.run_steps(3);
@@ -167,6 +151,7 @@ fn the_selected_pixel_has_a_mean_and_its_sample_a_value() {
 #[test]
 fn exposure_offset_and_tone_have_keys_fields_and_a_way_back() {
     let mut window = cornell();
+    wide(&mut window);
     still(&mut window);
     press(&mut window, Key::O);
     press(&mut window, Key::O);
@@ -195,6 +180,7 @@ fn exposure_offset_and_tone_have_keys_fields_and_a_way_back() {
 #[test]
 fn one_to_one_and_fit() {
     let mut window = cornell();
+    wide(&mut window);
     let width = |window: &Harness<'static, App>| window.state().on_screen([SIZE[0], 0]).x - window.state().on_screen([0, 0]).x;
     let fitted = width(&window);
     press(&mut window, Key::Z);
@@ -212,6 +198,7 @@ fn one_to_one_and_fit() {
 #[test]
 fn a_cell_opens_in_large_and_escape_returns() {
     let mut window = cornell();
+    wide(&mut window);
     let strategy = Strategy::new(2, 2);
     let name = |window: &Harness<'static, App>| {
         let cells = window.query_all_by_role(Role::Button).filter_map(|x| x.accesskit_node().label());
@@ -259,196 +246,54 @@ fn a_cell_opens_in_large_and_escape_returns() {
 }
 
 #[test]
-fn a_difference_and_its_figures_are_those_of_the_two_pictures() {
-    let mut window = two_pictures();
-    press(&mut window, Key::C);
-    press(&mut window, Key::C);
-    assert_eq!(window.state().state().compare.mode, CompareMode::Difference);
-    let (a, b) = (window.state().live().frame().expect("a frame").image.clone(), kept(&window));
-    let expected = figures(SIZE, &a, &b);
-    assert!(expected.max_absolute > 0.0, "they differ");
-    until(&mut window, "the figures", |_| true);
-    let label = fill(ViewText::FigureRelative.in_language(Lang::En), &[&number(expected.relative_mse)]);
-    for _ in 0..100 {
-        std::thread::sleep(Duration::from_millis(10));
-        window.run_steps(2);
-        if window.query_by_label(&label).is_some() {
+fn a_narrow_view_keeps_the_rest_in_a_menu() {
+    let mut window = cornell();
+    window.set_size(egui::vec2(1100.0, 800.0));
+    window.run_steps(4);
+    assert!(window.query_by_role_and_label(Role::SpinButton, "Offset").is_none());
+    click(&mut window, Role::Button, "More");
+    type_number(&mut window, "Offset", "0.25");
+    assert_eq!(window.state().state().view.offset, 0.25, "and the menu stays open for the next");
+    click(&mut window, Role::Button, "1:1");
+    assert!(matches!(window.state().state().placement, Placement::Free { .. }));
+    click(&mut window, Role::CheckBox, Text::ShowLegend.in_language(Lang::En));
+    assert!(!window.state().state().prefs.shown.legend);
+}
+
+#[test]
+fn beside_a_gpu_the_badge_says_whether_the_sample_is_the_one_rendered() {
+    let mut window = cornell();
+    assert!(!has(&window, "GPU = CPU") && !has(&window, "GPU ? CPU"), "the CPU renders: nothing to compare");
+    window.state_mut().state_mut().prefs.backend = engine::Backend::Gpu;
+    window.run_steps(2);
+    until(&mut window, "the next rendering", |app| {
+        app.live()
+            .engine()
+            .zip(app.live().frame())
+            .is_some_and(|(engine, frame)| engine.job().backend == engine::Backend::Gpu && engine.generation() == frame.generation)
+    });
+    let end = Instant::now() + Duration::from_secs(400);
+    loop {
+        window.step();
+        let stats = &window.state().live().frame().expect("a frame").stats;
+        if stats.backend == "gpu" {
             break;
         }
+        if let Some(why) = stats.fallback.clone() {
+            assert!(!skip::required("BDPT_REQUIRE_GPU"), "BDPT_REQUIRE_GPU=1, and {why}");
+            return skip::skipped("beside_a_gpu_the_badge_says_whether_the_sample_is_the_one_rendered", &why);
+        }
+        assert!(Instant::now() < end, "waited in vain for the GPU");
+        std::thread::sleep(Duration::from_millis(20));
     }
-    let rows = [
-        (ViewText::FigureMean, expected.mean),
-        (ViewText::FigureAbsolute, expected.mean_absolute),
-        (ViewText::FigureMax, expected.max_absolute),
-        (ViewText::FigureRelative, expected.relative_mse),
-    ];
-    for (text, value) in rows {
-        window.get_by_label(&fill(text.in_language(Lang::En), &[&number(value)]));
-    }
-    hover(&mut window, [20, 41]);
-    let here = 41 * 64 + 20;
-    assert_eq!(under_pointer(&window, [20, 41]), written(a[here] - b[here]));
-    for metric in [Metric::Absolute, Metric::RelativeSquared] {
-        window.state_mut().state_mut().compare.metric = metric;
-        window.run_steps(3);
-        assert_eq!(under_pointer(&window, [20, 41]), number(f64::from(metric.of(a[here], b[here]))));
-    }
-    // The worst pixel is a click away.
-    let label = fill(ViewText::FigureMax.in_language(Lang::En), &[&number(expected.max_absolute)]);
-    click(&mut window, Role::Button, &label);
-    assert_eq!(window.state().state().selection.pixel, expected.worst);
-}
-
-#[test]
-fn the_split_shows_a_to_the_left_and_b_to_the_right_of_its_line() {
-    let mut window = two_pictures();
-    press(&mut window, Key::C);
-    assert_eq!(window.state().state().compare.mode, CompareMode::Split);
-    let (a, b) = (window.state().live().frame().expect("a frame").image.clone(), kept(&window));
-    let name = ViewText::Divider.in_language(Lang::En);
-    let line = window.get_by_role_and_label(Role::Slider, name).rect().center();
-    let values = |window: &mut Harness<'static, App>| {
-        [[2, 41], [61, 41]].map(|pixel| {
-            hover(window, pixel);
-            under_pointer(window, pixel)
-        })
-    };
-    let (left, right) = (41 * 64 + 2, 41 * 64 + 61);
-    assert_eq!(values(&mut window), [written(a[left]), written(b[right])]);
-    // Dragged to the left of the image, the line leaves it to B; the image stays.
-    let (place, to) = (window.state().on_screen([20, 20]), window.state().on_screen([0, 41]) - egui::vec2(20.0, 0.0));
-    window.hover_at(line);
-    window.drag_at(line);
-    window.run_steps(1);
-    window.hover_at(line.lerp(to, 0.5));
-    window.run_steps(1);
-    window.hover_at(to);
-    window.run_steps(1);
-    window.drop_at(to);
-    window.run_steps(3);
-    assert_eq!(window.state().on_screen([20, 20]), place);
-    assert!((window.get_by_role_and_label(Role::Slider, name).rect().center().x - to.x).abs() < 2.0);
-    assert_eq!(values(&mut window), [written(b[left]), written(b[right])]);
-    // With the focus, the arrows move it instead of the pixel.
-    let (split, pixel) = (window.state().state().compare.split, window.state().state().selection.pixel);
-    window.get_by_role_and_label(Role::Slider, name).focus();
-    window.run_steps(2);
-    for _ in 0..3 {
-        press(&mut window, Key::ArrowRight);
-    }
-    assert!((window.state().state().compare.split - split - 0.06).abs() < 1e-4);
-    assert_eq!(window.state().state().selection.pixel, pixel);
-}
-
-#[test]
-fn shift_peeks_at_b_and_x_flips() {
-    let mut window = two_pictures();
-    let (a, b) = (at(&window, [20, 41]), kept(&window)[41 * 64 + 20]);
-    hover(&mut window, [20, 41]);
-    assert_eq!(under_pointer(&window, [20, 41]), written(a));
-    assert!(has(&window, "A: image"));
-    window.event(egui::Event::ModifiersChanged(Modifiers::SHIFT));
-    window.run_steps(3);
-    assert_eq!(under_pointer(&window, [20, 41]), written(b));
-    assert!(has(&window, "B: kept 1"));
-    window.event(egui::Event::ModifiersChanged(Modifiers::NONE));
-    window.run_steps(3);
-    assert_eq!(under_pointer(&window, [20, 41]), written(a));
-    press(&mut window, Key::X);
-    assert_eq!(under_pointer(&window, [20, 41]), written(b));
-    click(&mut window, Role::Button, "Show B");
-    hover(&mut window, [20, 41]);
-    assert_eq!(under_pointer(&window, [20, 41]), written(a));
-    click(&mut window, Role::Button, "A ⇄ B");
-    hover(&mut window, [20, 41]);
-    assert_eq!(under_pointer(&window, [20, 41]), written(b));
-}
-
-#[test]
-fn a_kept_picture_survives_a_restart_and_waits_for_its_size() {
-    let mut window = two_pictures();
-    let before = kept(&window);
-    click(&mut window, Role::Button, "Restart");
-    until(&mut window, "a pass", |app| app.live().first_pass().is_none());
-    assert_eq!(kept(&window), before);
-    assert!(has(&window, "A: image"));
-    // Its label says how it was made.
-    window.state_mut().state_mut().compare.flipped = true;
-    window.run_steps(3);
-    assert!(has(&window, "B: kept 1 · BDPT · power β = 2 · "));
-    window.state_mut().state_mut().resize([32, 32]);
-    window.run_steps(3);
-    let sentence = "kept 1 has 64×64 pixels, the film 32×32: choose that film size to see it.";
-    until(&mut window, "the smaller film", |app| app.live().frame().is_some_and(|f| f.size == [32, 32]));
-    window.run_steps(3);
-    window.get_by_label(sentence);
-    for mode in CompareMode::ALL {
-        window.state_mut().state_mut().compare.mode = mode;
-        hover(&mut window, [20, 20]);
-        window.get_by_label(sentence);
-    }
-    window.state_mut().state_mut().resize(SIZE);
-    until(&mut window, "the film as before", |app| app.live().frame().is_some_and(|f| f.size == SIZE));
-    window.run_steps(3);
-    assert!(!has(&window, sentence));
-    // Gone when it is forgotten.
-    click(&mut window, Role::Button, "Load …");
-    click(&mut window, Role::Button, "Forget kept 1");
-    assert!(window.state().state().compare.kept.is_empty());
-    assert_eq!(window.state().state().compare.b, None);
-}
-
-#[test]
-fn a_reference_is_read_from_a_file_of_the_same_size() {
-    let mut window = cornell();
-    let folder = tempfile::tempdir().expect("a folder");
-    let save = |name: &str, size: [u32; 2]| {
-        let pixels: Vec<Vec3> = (0..size[0] * size[1]).map(|i| Vec3::new(i as f32, 0.5, 0.25)).collect();
-        let path = folder.path().join(name);
-        save_exr(&path, Window::full(size), &[Layer { name: "", pixels: &pixels }]).expect("it can be saved");
-        path.display().to_string()
-    };
-    let (good, bad) = (save("reference.exr", SIZE), save("small.exr", [8, 8]));
-    click(&mut window, Role::Button, "Compare");
-    let load = |window: &mut Harness<'static, App>, path: &str| {
-        click(window, Role::Button, "Load …");
-        let field = window.get_by_role_and_label(Role::TextInput, ViewText::LoadPath.in_language(Lang::En)).rect().center();
-        click_at(window, field);
-        window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-        window.event(egui::Event::Text(path.to_owned()));
-        window.run_steps(1);
-        window.key_press(Key::Enter);
-        window.run_steps(3);
-    };
-    load(&mut window, &bad);
-    until(&mut window, "the sentence", |app| {
-        app.state().messages.iter().any(|m| m.error && m.text.contains("8×8 pixels and the film 64×64"))
-    });
-    assert!(window.state().state().compare.kept.is_empty());
-    load(&mut window, "/no/such/file.exr");
-    until(&mut window, "the sentence", |app| app.state().messages.iter().any(|m| m.error && m.text.contains("there is no file")));
-    load(&mut window, &good);
-    until(&mut window, "the reference", |app| app.state().compare.b.is_some());
-    window.state_mut().state_mut().compare.flipped = true;
-    window.run_steps(3);
-    until(&mut window, "a pass", |app| app.live().first_pass().is_none());
-    hover(&mut window, [20, 41]);
-    assert_eq!(under_pointer(&window, [20, 41]), written(Vec3::new((41 * 64 + 20) as f32, 0.5, 0.25)));
-    assert!(has(&window, "B: reference.exr"));
-}
-
-#[test]
-fn the_tone_maps_and_compare_controls_have_names_in_both_languages() {
-    let mut window = two_pictures();
-    for lang in [Lang::En, Lang::Zh] {
-        window.state_mut().state_mut().prefs.lang = lang;
-        for mode in CompareMode::ALL {
-            window.state_mut().state_mut().compare.mode = mode;
-            for width in [1024.0, 1440.0] {
-                window.set_size(egui::vec2(width, 800.0));
-                window.run_steps(4);
-                window.check_accessibility();
-            }
+    for pixel in [[20, 41], [33, 12], [60, 60]] {
+        window.state_mut().state_mut().selection.pixel = pixel;
+        window.run_steps(2);
+        let answered = |window: &Harness<'static, App>| has(window, "GPU = CPU") || has(window, "GPU ≠ CPU");
+        while !answered(&window) {
+            window.step();
+            assert!(Instant::now() < end, "waited in vain for the comparison");
+            std::thread::sleep(Duration::from_millis(5));
         }
     }
 }

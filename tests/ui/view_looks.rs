@@ -59,7 +59,9 @@ fn other_size(window: &mut Harness<'static, App>) {
 fn views_to_look_at() {
     let wanted = std::env::var("BDPT_SHOT").unwrap_or_default();
     for look in LOOKS {
-        for (size, lang) in [([1440.0, 900.0], Lang::En), ([1280.0, 800.0], Lang::Zh), ([1024.0, 768.0], Lang::En)] {
+        for (size, lang) in
+            [([1440.0, 900.0], Lang::En), ([1280.0, 800.0], Lang::Zh), ([1024.0, 768.0], Lang::En), ([960.0, 640.0], Lang::Zh)]
+        {
             let file = format!("view-{}-{}", look.name, size[0]);
             if !file.contains(&wanted) {
                 continue;

@@ -9,7 +9,6 @@ use super::super::widgets::{full_name, keep_together};
 use super::source::{name, rendered, short_name};
 use super::{Mode, Source};
 use crate::bdpt::Strategy;
-use crate::engine;
 use crate::film::difference::{Figures, Metric};
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{Button, ComboBox, Key, Label, PopupCloseBehavior, RichText, Role, TextEdit, Ui, WidgetInfo};
@@ -35,6 +34,7 @@ pub fn takes_part(state: &State, live: &Live, strategy: Strategy) -> bool {
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live, figures: Option<Figures>) {
     ui.horizontal_wrapped(|ui| {
         let (letter, help) = (state.say(ViewText::PictureB), state.say(ViewText::HelpB));
+        ui.label(letter);
         if let Some(source) = choose(ui, state, live, (letter, help, state.compare.b)) {
             state.compare.b = Some(source);
         }
@@ -59,12 +59,11 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, figures: Option<Figures
     }
 }
 
-/// A choice among all pictures; what was chosen.
+/// A choice among all pictures, with its name for whoever does not see it; what was chosen.
 pub fn choose(ui: &mut Ui, state: &State, live: &Live, (label, help, current): (&str, &str, Option<Source>)) -> Option<Source> {
     let mut chosen = None;
-    let label = ui.label(label);
     let shown = current.map_or(state.say(ViewText::NoB).to_owned(), |source| short_name(state, source));
-    let combo = ComboBox::from_id_salt(("picture", label.id)).selected_text(shown).width(92.0).truncate();
+    let combo = ComboBox::from_id_salt(("picture", label)).selected_text(shown).width(92.0).truncate();
     let response = combo.show_ui(ui, |ui| {
         let mut row = |ui: &mut Ui, source: Source, words: &str, more: &str| {
             let response = ui.selectable_label(current == Some(source), words);
@@ -75,7 +74,7 @@ pub fn choose(ui: &mut Ui, state: &State, live: &Live, (label, help, current): (
         row(ui, Source::Image, state.say(ViewText::TheImage), &name(state, live, Source::Image));
         let selected = state.selection.strategy;
         if takes_part(state, live, selected) {
-            let source = Source::Strategy(selected, engine::Mode::Weighted);
+            let source = Source::Strategy(selected, state.study.mode);
             let words = fill(state.say(ViewText::SelectedStrategy), &[&full_name(selected, state.prefs.lang)]);
             row(ui, source, &words, &words);
         }
@@ -85,7 +84,8 @@ pub fn choose(ui: &mut Ui, state: &State, live: &Live, (label, help, current): (
             row(ui, source, &words, &words);
         }
     });
-    response.response.labelled_by(label.id).on_hover_text(help);
+    response.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, label));
+    response.response.on_hover_text(help);
     chosen
 }
 

@@ -67,7 +67,7 @@ impl Keeper {
                 state.tell(true, fill(state.say(ViewText::WrongSize), &[&name, &width, &height, &columns, &rows]));
             }
             Ok(picture) => {
-                let id = state.compare.add(About::File(name), Arc::new(picture));
+                let id = state.compare.add(About::File(name), Arc::new(picture), None);
                 state.compare.b = Some(Source::Kept(id));
                 state.compare.open = true;
             }
@@ -88,7 +88,7 @@ fn keep(state: &mut State, live: &Live) -> bool {
         return false;
     }
     let picture = Picture { size: found.content.size(), pixels: found.content.pixels().into_owned() };
-    let id = state.compare.add(About::Rendered(rendered), Arc::new(picture));
+    let id = state.compare.add(About::Rendered(rendered), Arc::new(picture), found.content.scale());
     state.compare.b.get_or_insert(Source::Kept(id));
     true
 }

@@ -3,20 +3,17 @@
 
 mod bar;
 mod keeper;
+mod pair;
 mod source;
 
 pub use bar::{choose, metric_text, show, takes_part};
 pub use keeper::Keeper;
+pub use pair::{Pair, Value};
 pub use source::{Content, Missing, Source, Sourced, name, samples, short_name};
 
-use source::find;
-
-use super::live::Live;
-use super::state::State;
 use crate::film::difference::Metric;
 use crate::film::picture::Picture;
-use crate::math::Vec3;
-use std::borrow::Cow;
+use crate::film::scale::Scale;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -75,6 +72,8 @@ pub struct Kept {
     pub about: About,
     /// Itself.
     pub picture: Arc<Picture>,
+    /// The scale of its numbers, if it holds numbers instead of colours.
+    pub scale: Option<Scale>,
 }
 
 /// What a person chose to compare, and what was kept for it.
@@ -130,9 +129,9 @@ impl Default for CompareState {
 
 impl CompareState {
     /// Adds a picture, and lets the oldest go. What showed that one shows the image, or nothing, instead.
-    pub fn add(&mut self, about: About, picture: Arc<Picture>) -> u32 {
+    pub fn add(&mut self, about: About, picture: Arc<Picture>, scale: Option<Scale>) -> u32 {
         self.count += 1;
-        self.kept.push(Kept { id: self.count, about, picture });
+        self.kept.push(Kept { id: self.count, about, picture, scale });
         while self.kept.len() > MOST_KEPT {
             let id = self.kept.first().map_or(0, |oldest| oldest.id);
             self.remove(id);
@@ -207,92 +206,10 @@ pub enum Display {
     Difference,
 }
 
-/// The two pictures of this pass, as far as they are there.
-#[derive(Clone)]
-pub struct Pair {
-    /// What is on show.
-    pub display: Display,
-    /// A.
-    pub a: Result<Sourced, Missing>,
-    /// B, if anything is compared.
-    pub b: Option<Result<Sourced, Missing>>,
-}
-
-impl Pair {
-    /// Finds both.
-    pub fn find(state: &State, live: &Live) -> Self {
-        let compare = &state.compare;
-        Self { display: compare.display(), a: find(state, live, compare.a), b: compare.second().map(|b| find(state, live, b)) }
-    }
-
-    /// The values that a pixel shows; `right`: of the line that splits the view. `None` where there is no picture.
-    pub fn value(&self, pixel: [u32; 2], right: bool, metric: Metric) -> Option<Value> {
-        let of = |x: &Result<Sourced, Missing>| x.as_ref().ok()?.content.value(pixel);
-        let b = || of(self.b.as_ref()?);
-        match self.display {
-            Display::A => of(&self.a),
-            Display::B => b(),
-            Display::Split => {
-                if right {
-                    b()
-                } else {
-                    of(&self.a)
-                }
-            }
-            Display::Difference => {
-                let (a, b) = (of(&self.a)?.rgb(), b()?.rgb());
-                Some(if metric == Metric::Signed { Value::Colour(a - b) } else { Value::Number(metric.of(a, b)) })
-            }
-        }
-    }
-}
-
-impl Pair {
-    /// The pixels on show; of a difference, its size in every channel. `None` where there is no picture.
-    pub fn shown_pixels(&self, metric: Metric) -> Option<Cow<'_, [Vec3]>> {
-        let a = self.a.as_ref().ok().map(|x| x.content.pixels());
-        let b = self.b.as_ref().and_then(|x| Some(x.as_ref().ok()?.content.pixels()));
-        match self.display {
-            Display::A | Display::Split => a,
-            Display::B => b,
-            Display::Difference => {
-                let size = |(a, b): (&Vec3, &Vec3)| Vec3::splat(metric.of(*a, *b).abs());
-                Some(a?.iter().zip(b?.iter()).map(size).collect())
-            }
-        }
-    }
-}
-
-/// What a pixel holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Value {
-    /// Linear red, green and blue.
-    Colour(Vec3),
-    /// A number.
-    Number(f32),
-}
-
-impl Value {
-    /// The same as three channels.
-    pub fn rgb(self) -> Vec3 {
-        match self {
-            Self::Colour(rgb) => rgb,
-            Self::Number(value) => Vec3::splat(value),
-        }
-    }
-
-    /// Its numbers.
-    pub fn numbers(self) -> Vec<f32> {
-        match self {
-            Self::Colour(rgb) => rgb.to_array().to_vec(),
-            Self::Number(value) => vec![value],
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::Vec3;
 
     fn picture() -> Arc<Picture> {
         Arc::new(Picture { size: [1, 1], pixels: vec![Vec3::ONE] })
@@ -302,10 +219,10 @@ mod tests {
     fn the_oldest_of_nine_goes_and_nothing_shows_it_any_more() {
         let mut compare = CompareState::default();
         for _ in 0..MOST_KEPT {
-            compare.add(About::File("x".into()), picture());
+            compare.add(About::File("x".into()), picture(), None);
         }
         (compare.a, compare.b) = (Source::Kept(1), Some(Source::Kept(1)));
-        compare.add(About::File("y".into()), picture());
+        compare.add(About::File("y".into()), picture(), None);
         let ids: Vec<u32> = compare.kept.iter().map(|kept| kept.id).collect();
         assert_eq!(ids, (2..=9).collect::<Vec<_>>());
         assert_eq!((compare.a, compare.b), (Source::Image, None));
@@ -335,8 +252,8 @@ mod tests {
         compare.toggle();
         assert_eq!(compare.second(), None, "there is none");
         compare.toggle();
-        compare.add(About::File("x".into()), picture());
-        compare.add(About::File("y".into()), picture());
+        compare.add(About::File("x".into()), picture(), None);
+        compare.add(About::File("y".into()), picture(), None);
         compare.toggle();
         assert_eq!(compare.second(), Some(Source::Kept(2)));
     }

@@ -33,8 +33,8 @@ pub enum Content {
     Frame(Arc<Frame>),
     /// A strategy's.
     Engine(Arc<engine::Picture>),
-    /// A kept one.
-    Kept(Arc<Picture>),
+    /// A kept one, with the scale of its numbers if it holds numbers.
+    Kept(Arc<Picture>, Option<Scale>),
 }
 
 impl Content {
@@ -43,7 +43,7 @@ impl Content {
         match self {
             Self::Frame(frame) => frame.size,
             Self::Engine(picture) => picture.size,
-            Self::Kept(picture) => picture.size,
+            Self::Kept(picture, _) => picture.size,
         }
     }
 
@@ -53,7 +53,8 @@ impl Content {
         let colour = |pixels: &[Vec3]| pixel_of(size, pixels, at).map(super::Value::Colour);
         match self {
             Self::Frame(frame) => colour(&frame.image),
-            Self::Kept(picture) => colour(&picture.pixels),
+            Self::Kept(picture, None) => colour(&picture.pixels),
+            Self::Kept(picture, Some(_)) => pixel_of(size, &picture.pixels, at).map(|grey| super::Value::Number(grey.x)),
             Self::Engine(picture) => match &picture.values {
                 Values::Colour(pixels) => colour(pixels),
                 Values::Scalar(numbers) => {
@@ -69,7 +70,7 @@ impl Content {
     pub fn pixels(&self) -> Cow<'_, [Vec3]> {
         match self {
             Self::Frame(frame) => Cow::Borrowed(&frame.image),
-            Self::Kept(picture) => Cow::Borrowed(&picture.pixels),
+            Self::Kept(picture, _) => Cow::Borrowed(&picture.pixels),
             Self::Engine(picture) => match &picture.values {
                 Values::Colour(pixels) => Cow::Borrowed(pixels),
                 Values::Scalar(numbers) => numbers.iter().map(|number| Vec3::splat(*number)).collect(),
@@ -79,6 +80,9 @@ impl Content {
 
     /// The scale of its numbers, if it holds numbers instead of colours.
     pub fn scale(&self) -> Option<Scale> {
+        if let Self::Kept(_, scale) = self {
+            return *scale;
+        }
         let Self::Engine(picture) = self else { return None };
         let engine::Source::Strategy(_, mode) = picture.source else { return None };
         if mode.is_colour() {
@@ -130,7 +134,7 @@ pub fn find(state: &State, live: &Live, source: Source) -> Result<Sourced, Missi
         }
         Source::Kept(id) => {
             let kept = state.compare.kept.iter().find(|kept| kept.id == id).ok_or(Missing::NotThere)?;
-            Sourced { source, stamp: [0, u64::from(id)], content: Content::Kept(Arc::clone(&kept.picture)) }
+            Sourced { source, stamp: [0, u64::from(id)], content: Content::Kept(Arc::clone(&kept.picture), kept.scale) }
         }
     };
     match found.content.size() {
@@ -138,6 +142,18 @@ pub fn find(state: &State, live: &Live, source: Source) -> Result<Sourced, Missi
         // The image follows in a moment.
         _ if !matches!(source, Source::Kept(_)) => Err(Missing::Coming),
         size => Err(Missing::Size(size)),
+    }
+}
+
+/// What a picture's values are: radiances (of the image, a strategy or a file), or what else a strategy's picture shows.
+pub fn quantity(state: &State, source: Source) -> Option<Mode> {
+    match source {
+        Source::Strategy(_, mode) if !mode.is_colour() => Some(mode),
+        Source::Kept(id) => match state.compare.kept.iter().find(|kept| kept.id == id).map(|kept| &kept.about) {
+            Some(About::Rendered(rendered)) if rendered.source != source => quantity(state, rendered.source),
+            _ => None,
+        },
+        _ => None,
     }
 }
 

@@ -56,15 +56,25 @@ pub fn id() -> egui::Id {
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live, desk: &mut Desk) -> Rect {
     let replayed = desk.replayed(state, live);
     let darkroom = &mut desk.darkroom;
-    ui.horizontal_wrapped(|ui| toolbar::show(ui, state, live));
+    // A narrow view has no row to spare for the selected pixel.
+    let narrow = ui.available_width() < toolbar::WIDE;
+    ui.horizontal_wrapped(|ui| {
+        toolbar::show(ui, state, live);
+        if narrow {
+            readout::show(ui, state, live, &replayed);
+        }
+    });
     if state.compare.open {
-        let figures = darkroom.difference(state, &Pair::find(state, live)).and_then(|print| print.figures);
-        compare::show(ui, state, live, figures.filter(|_| state.compare.mode == compare::Mode::Difference));
+        let pair = Pair::find(state, live);
+        let print = (pair.display == Display::Difference).then(|| darkroom.difference(state, &pair)).flatten();
+        compare::show(ui, state, live, print.and_then(|print| print.figures));
     }
     if state.prefs.camera_open {
         camera_bar::show(ui, state, live);
     }
-    ui.horizontal_wrapped(|ui| readout::show(ui, state, live, &replayed));
+    if !narrow {
+        ui.horizontal_wrapped(|ui| readout::show(ui, state, live, &replayed));
+    }
     lost_paths(ui, state, live);
     ui.add_space(2.0);
     let panel = ui.available_rect_before_wrap();

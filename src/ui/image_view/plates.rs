@@ -67,6 +67,9 @@ fn sentences(state: &State, pair: &Pair, marked: usize) -> Vec<String> {
             Some(Missing::Coming) | None => {}
         }
     }
+    if pair.display == Display::Difference && pair.is_odd(state) {
+        sentences.push(state.say(ViewText::OtherQuantity).to_owned());
+    }
     if marked > 0 {
         sentences.push(fill(state.say(ViewText::Marked), &[&marked.to_string()]));
     }
@@ -85,16 +88,13 @@ fn plate(ui: &mut Ui, state: &mut State, part: Rect, (side, words, back): (Align
     ui.scope_builder(builder, |ui| {
         let ground = Frame::new().fill(Color32::from_black_alpha(200)).corner_radius(6).inner_margin(Margin::symmetric(8, 3));
         ground.show(ui, |ui| {
-            let back = back.then(|| (state.say(ViewText::BackToImage), keys::hint(state, ViewText::BackToImage, Action::Back)));
-            let taken = if back.is_some() { 130.0 } else { 0.0 };
-            ui.set_max_width((row.width() - 16.0 - taken).max(40.0));
-            ui.add(Label::new(RichText::new(words.as_str()).small().color(Color32::WHITE)).truncate()).on_hover_text(words.as_str());
-            if let Some((name, hint)) = back {
-                ui.set_max_width(row.width());
-                if ui.add(Button::new(RichText::new(name).small())).on_hover_text(hint).clicked() {
+            if back {
+                let hint = keys::hint(state, ViewText::BackToImage, Action::Back);
+                if ui.add(Button::new(RichText::new(state.say(ViewText::BackToImage)).small())).on_hover_text(hint).clicked() {
                     state.compare.a = Source::Image;
                 }
             }
+            ui.add(Label::new(RichText::new(words.as_str()).small().color(Color32::WHITE)).truncate()).on_hover_text(words.as_str());
         });
     });
 }

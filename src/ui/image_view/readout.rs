@@ -11,17 +11,31 @@ use super::Replayed;
 use crate::bdpt::PathRecord;
 use crate::film::picture::pixel_of;
 use crate::math::Vec3;
-use eframe::egui::{DragValue, RichText, Ui};
+use eframe::egui::{DragValue, Label, RichText, Ui};
+
+/// A view narrower than this has no room for words, points.
+const NARROW: f32 = 440.0;
+/// A narrow view lower than this has no room for the numbers.
+const LOW: f32 = 300.0;
 
 /// Shows it.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live, replayed: &Replayed) {
     let [mut x, mut y] = state.selection.pixel;
     let [width, height] = state.size;
     let hint = keys::hint(state, Text::HelpPixel, Action::Nudge);
-    ui.label(state.say(Text::Pixel));
+    let small = ui.max_rect().width() < NARROW;
+    if small {
+        keep_together(ui, 112.0);
+    } else {
+        keep_together(ui, 150.0);
+        ui.label(state.say(Text::Pixel));
+    }
     labelled(ui, "x", &hint, |ui| ui.add(DragValue::new(&mut x).range(0..=width.saturating_sub(1)).speed(0.2)));
     labelled(ui, "y", &hint, |ui| ui.add(DragValue::new(&mut y).range(0..=height.saturating_sub(1)).speed(0.2)));
     state.select_pixel(i64::from(x), i64::from(y));
+    if small && ui.available_height() < LOW {
+        return brief(ui, state, live, replayed);
+    }
     if let Some((samples, mean)) = mean(state, live) {
         let name = fill(state.say(ViewText::MeanOf), &[&samples]);
         let (interval, about) = live.frame().map(|frame| study::interval::words(state, frame)).unwrap_or_default();
@@ -39,27 +53,49 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, replayed: &Replayed) {
     }
 }
 
-/// Whether the sample shown is the one that the GPU rendered. Nothing where there is nothing to doubt; the tooltips say why.
+/// Whether the sample shown is the one that the GPU rendered. Nothing where there is nothing to doubt.
 fn badge(ui: &mut Ui, state: &State, replayed: &Replayed) {
-    let (text, colour, help) = match replayed {
-        Replayed::NotOnGpu => return,
-        Replayed::Waiting => (ViewText::Replaying, ui.visuals().weak_text_color(), state.say(ViewText::HelpReplaying).to_owned()),
-        Replayed::Known(Err(reason)) => {
-            (ViewText::Replaying, ui.visuals().warn_fg_color, fill(state.say(ViewText::NotReplayed), &[reason]))
-        }
+    if let Some((words, warning, help)) = judgement(state, replayed) {
+        let colour = if warning { ui.visuals().warn_fg_color } else { ui.visuals().weak_text_color() };
+        keep_together(ui, 90.0);
+        ui.label(RichText::new(words).small().color(colour)).on_hover_text(help);
+    }
+}
+
+/// The badge's words, whether they are a warning, and what they mean.
+fn judgement(state: &State, replayed: &Replayed) -> Option<(String, bool, String)> {
+    let say = |text: ViewText| state.say(text).to_owned();
+    Some(match replayed {
+        Replayed::NotOnGpu => return None,
+        Replayed::Waiting => (say(ViewText::Replaying), false, say(ViewText::HelpReplaying)),
+        Replayed::Known(Err(reason)) => (say(ViewText::Replaying), true, fill(state.say(ViewText::NotReplayed), &[reason])),
         Replayed::Known(Ok(compared)) if compared.diverged() => {
             let values = [compared.gpu, compared.cpu].map(|value| format::rgb(value.to_array()));
             let name = full_name(compared.strategy, state.prefs.lang);
-            (ViewText::Diverged, ui.visuals().warn_fg_color, fill(state.say(ViewText::HelpDiverged), &[&name, &values[0], &values[1]]))
+            let help = fill(state.say(ViewText::HelpDiverged), &[&name, &values[0], &values[1]]);
+            (format!("⚠ {}", state.say(ViewText::Diverged)), true, help)
         }
         Replayed::Known(Ok(compared)) => {
             let error = format!("{:.0e}", compared.error.max(1e-7));
-            (ViewText::Replayed, ui.visuals().weak_text_color(), fill(state.say(ViewText::HelpReplayed), &[&error]))
+            (say(ViewText::Replayed), false, fill(state.say(ViewText::HelpReplayed), &[&error]))
         }
-    };
-    let mark = if text == ViewText::Diverged { "⚠ " } else { "" };
-    keep_together(ui, 90.0);
-    ui.label(RichText::new(format!("{mark}{}", state.say(text))).small().color(colour)).on_hover_text(help);
+    })
+}
+
+/// What a small view has room for: the mean, as far as the row goes, and the badge where it warns. The rest is told by the
+/// tooltip, and the sample by the inspector.
+fn brief(ui: &mut Ui, state: &State, live: &Live, replayed: &Replayed) {
+    if judgement(state, replayed).is_some_and(|(_, warning, _)| warning) {
+        badge(ui, state, replayed);
+    }
+    if let Some((samples, mean)) = mean(state, live)
+        && ui.available_size_before_wrap().x > 90.0
+    {
+        let name = fill(state.say(ViewText::MeanOf), &[&samples]);
+        let help = format!("{name} {mean}\n{}", state.say(ViewText::HelpMean));
+        let words = RichText::new(format!("{} {mean}", state.say(ViewText::Mean))).small();
+        ui.add(Label::new(words).truncate()).on_hover_text(help);
+    }
 }
 
 /// A name and its value, on one line together.
@@ -88,4 +124,29 @@ fn on_its_pixel(record: &PathRecord, state: &State) -> Vec3 {
     let shown = record.strategies.iter().filter(|x| x.feasible && !state.hidden.contains(x.strategy()));
     let lands = shown.filter(|x| x.strategy().stays_in_pixel() || x.raster.is_some_and(here));
     lands.map(|x| Vec3::from(x.contribution)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::state::Preferences;
+    use super::*;
+    use crate::bdpt::Strategy;
+    use crate::engine::{Comparison, TOLERANCE};
+
+    #[test]
+    fn a_sample_that_took_another_turn_is_marked_and_explained() {
+        let state = State::new(Preferences::default(), [8, 8]);
+        let compared = |error: f32| {
+            let values = (Vec3::new(1.0, 2.0, 3.0), Vec3::splat(0.5));
+            Replayed::Known(Ok(Comparison { strategy: Strategy::new(2, 1), gpu: values.0, cpu: values.1, error }))
+        };
+        let Some((words, warning, help)) = judgement(&state, &compared(2.0 * TOLERANCE)) else { panic!("a badge") };
+        assert_eq!((words.as_str(), warning), ("⚠ GPU ≠ CPU", true));
+        assert!(help.contains("light tracer (2,1), the GPU has 1.000  2.000  3.000, the CPU 0.5000"), "{help}");
+        let Some((words, warning, _)) = judgement(&state, &compared(0.5 * TOLERANCE)) else { panic!("a badge") };
+        assert_eq!((words.as_str(), warning), ("GPU = CPU", false));
+        assert_eq!(judgement(&state, &Replayed::NotOnGpu), None);
+        let lost = judgement(&state, &Replayed::Known(Err("the device is lost".into())));
+        assert!(lost.is_some_and(|(_, warning, help)| warning && help.contains("the device is lost")));
+    }
 }

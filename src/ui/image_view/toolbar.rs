@@ -9,7 +9,8 @@ use super::super::text::{Text, ViewText};
 use super::super::widgets::{keep_together, labelled};
 use crate::engine::Mode;
 use crate::film::tonemap::{ToneMap, fitting_exposure};
-use eframe::egui::{Button, ComboBox, DragValue, Ui};
+use eframe::egui::containers::menu::{MenuButton, MenuConfig};
+use eframe::egui::{Button, ComboBox, DragValue, PopupCloseBehavior, Role, Ui, WidgetInfo};
 
 /// The tone maps' names, and what they do.
 const TONE_MAPS: [(ToneMap, ViewText); 4] = [
@@ -28,24 +29,63 @@ fn tone_name(state: &State, tonemap: ToneMap) -> &'static str {
     }
 }
 
+/// A view narrower than this keeps what is used less in a menu, points.
+pub const WIDE: f32 = 500.0;
+
 /// Shows it.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
-    source(ui, state, live);
-    looks(ui, state, live);
+    let wide = ui.available_width() >= WIDE;
+    source(ui, state, live, wide);
+    keep_together(ui, 130.0);
+    exposure(ui, state);
+    if wide {
+        auto(ui, state, live);
+        open_large(ui, state, live);
+        ui.separator();
+        rest(ui, state);
+        show_menu(ui, state);
+        return;
+    }
+    compare_button(ui, state);
+    camera_button(ui, state);
+    // A click on a field must not close the menu.
+    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    let menu = MenuButton::new(state.say(ViewText::More)).config(config);
+    let (response, _) = menu.ui(ui, |ui| {
+        ui.set_min_width(270.0);
+        ui.horizontal(|ui| {
+            auto(ui, state, live);
+            open_large(ui, state, live);
+        });
+        ui.horizontal(|ui| tone(ui, state));
+        ui.horizontal(|ui| offset(ui, state));
+        ui.horizontal(|ui| places(ui, state));
+        ui.separator();
+        shown(ui, state);
+    });
+    response.on_hover_text(state.say(ViewText::HelpMore));
+}
+
+/// What a wide view has room for beside the picture's choice and the exposure.
+fn rest(ui: &mut Ui, state: &mut State) {
+    keep_together(ui, 110.0);
+    offset(ui, state);
+    keep_together(ui, 130.0);
+    tone(ui, state);
     ui.separator();
+    places(ui, state);
+    camera_button(ui, state);
+    compare_button(ui, state);
+}
+
+/// Where the image is, and what is beside it.
+fn places(ui: &mut Ui, state: &mut State) {
     if ui.button(state.say(Text::Fit)).on_hover_text(keys::hint(state, Text::KeyFit, Action::Fit)).clicked() {
         state.placement = Placement::Fit;
     }
     let hint = keys::hint(state, Text::KeyOneToOne, Action::OneToOne);
     if ui.button(state.say(ViewText::OneToOne)).on_hover_text(hint).clicked() {
         state.view.one_to_one = true;
-    }
-    show_menu(ui, state);
-    let label = state.say(Text::Camera);
-    ui.toggle_value(&mut state.prefs.camera_open, label).on_hover_text(Text::HelpCameraRow.in_language(state.prefs.lang));
-    let hint = keys::hint(state, ViewText::HelpCompare, Action::Compare);
-    if ui.add(Button::new(state.say(ViewText::Compare)).selected(state.compare.open)).on_hover_text(hint).clicked() {
-        state.compare.toggle();
     }
     let alone = state.maximised == Maximised::Image;
     let button = Button::new(state.say(Text::Maximise)).selected(alone);
@@ -54,15 +94,29 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     }
 }
 
+fn camera_button(ui: &mut Ui, state: &mut State) {
+    let label = state.say(Text::Camera);
+    ui.toggle_value(&mut state.prefs.camera_open, label).on_hover_text(Text::HelpCameraRow.in_language(state.prefs.lang));
+}
+
+fn compare_button(ui: &mut Ui, state: &mut State) {
+    let hint = keys::hint(state, ViewText::HelpCompare, Action::Compare);
+    if ui.add(Button::new(state.say(ViewText::Compare)).selected(state.compare.open)).on_hover_text(hint).clicked() {
+        state.compare.toggle();
+    }
+}
+
 /// Which picture is on show, and what of a strategy.
-fn source(ui: &mut Ui, state: &mut State, live: &Live) {
-    let help = state.say(ViewText::HelpSource);
-    let name = state.say(ViewText::ShowSource);
+fn source(ui: &mut Ui, state: &mut State, live: &Live, wide: bool) {
+    let (name, help) = (state.say(ViewText::ShowSource), state.say(ViewText::HelpSource));
+    if wide {
+        ui.label(name);
+    }
     if let Some(source) = compare::choose(ui, state, live, (name, help, Some(state.compare.a))) {
         state.compare.a = source;
     }
     if let Source::Strategy(strategy, mode) = state.compare.a {
-        let help = state.say(ViewText::HelpOpenLarge);
+        let help = state.say(mode_texts(mode)[1]);
         let combo = ComboBox::from_id_salt("mode of the picture").selected_text(state.say(mode_texts(mode)[0])).width(70.0);
         let response = combo.show_ui(ui, |ui| {
             for other in Mode::ALL {
@@ -73,33 +127,43 @@ fn source(ui: &mut Ui, state: &mut State, live: &Live) {
             }
         });
         let name = state.say(ViewText::ModeOf);
-        response.response.widget_info(|| eframe::egui::WidgetInfo::labeled(eframe::egui::Role::ComboBox, true, name));
+        response.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
         response.response.on_hover_text(help);
-    } else {
-        let selected = Source::Strategy(state.selection.strategy, state.study.mode);
-        let there = compare::takes_part(state, live, state.selection.strategy);
-        let button = ui.add_enabled(there, Button::new(state.say(ViewText::OpenLarge)));
-        if button.on_hover_text(state.say(ViewText::HelpOpenLarge)).on_disabled_hover_text(state.say(ViewText::NotThere)).clicked() {
-            state.compare.a = selected;
-        }
     }
 }
 
-fn looks(ui: &mut Ui, state: &mut State, live: &Live) {
-    keep_together(ui, 190.0);
+/// The selected strategy in large.
+fn open_large(ui: &mut Ui, state: &mut State, live: &Live) {
+    let selected = Source::Strategy(state.selection.strategy, state.study.mode);
+    let there = compare::takes_part(state, live, state.selection.strategy);
+    let button = ui.add_enabled(there, Button::new(state.say(ViewText::OpenLarge)).selected(state.compare.a == selected));
+    if button.on_hover_text(state.say(ViewText::HelpOpenLarge)).on_disabled_hover_text(state.say(ViewText::NotThere)).clicked() {
+        state.compare.a = selected;
+    }
+}
+
+fn exposure(ui: &mut Ui, state: &mut State) {
     let hint = keys::hint(state, Text::HelpExposure, Action::Exposure);
     let exposure = state.say(Text::Exposure);
     labelled(ui, exposure, &hint, |ui| {
         ui.add(DragValue::new(&mut state.exposure).range(-20.0..=20.0).speed(0.05).fixed_decimals(1).suffix(" EV"))
     });
+}
+
+/// Fits the exposure to what is on show.
+fn auto(ui: &mut Ui, state: &mut State, live: &Live) {
     if ui.button(state.say(ViewText::Auto)).on_hover_text(state.say(ViewText::HelpAuto)).clicked() {
         (state.exposure, state.view.offset) = (exposure_of(&Pair::find(state, live), state).clamp(-20.0, 20.0), 0.0);
     }
-    keep_together(ui, 110.0);
+}
+
+fn offset(ui: &mut Ui, state: &mut State) {
     let hint = keys::hint(state, ViewText::HelpOffset, Action::Offset);
     let offset = state.say(ViewText::Offset);
     labelled(ui, offset, &hint, |ui| ui.add(DragValue::new(&mut state.view.offset).range(-10.0..=10.0).speed(0.01).max_decimals(2)));
-    keep_together(ui, 130.0);
+}
+
+fn tone(ui: &mut Ui, state: &mut State) {
     let label = ui.label(state.say(Text::ToneMapping));
     let combo = ComboBox::from_id_salt("tone map").selected_text(tone_name(state, state.tonemap)).width(76.0);
     let response = combo.show_ui(ui, |ui| {
@@ -120,22 +184,24 @@ fn exposure_of(pair: &Pair, state: &State) -> f32 {
 }
 
 fn show_menu(ui: &mut Ui, state: &mut State) {
+    let menu = ui.menu_button(state.say(Text::Show), |ui| shown(ui, state));
+    menu.response.on_hover_text(state.say(Text::HelpShow));
+}
+
+/// What is drawn over the image.
+fn shown(ui: &mut Ui, state: &mut State) {
     let lang = state.prefs.lang;
     let shown = &mut state.prefs.shown;
-    ui.menu_button(Text::Show.in_language(lang), |ui| {
-        let rows = [
-            (&mut shown.eye, Text::LegendEye),
-            (&mut shown.light, Text::LegendLight),
-            (&mut shown.connections, Text::LegendConnection),
-            (&mut shown.blocked, Text::LegendBlocked),
-            (&mut shown.splats, Text::LegendSplat),
-            (&mut shown.names, Text::ShowNames),
-            (&mut shown.legend, Text::ShowLegend),
-        ];
-        for (flag, text) in rows {
-            ui.checkbox(flag, text.in_language(lang));
-        }
-    })
-    .response
-    .on_hover_text(Text::HelpShow.in_language(lang));
+    let rows = [
+        (&mut shown.eye, Text::LegendEye),
+        (&mut shown.light, Text::LegendLight),
+        (&mut shown.connections, Text::LegendConnection),
+        (&mut shown.blocked, Text::LegendBlocked),
+        (&mut shown.splats, Text::LegendSplat),
+        (&mut shown.names, Text::ShowNames),
+        (&mut shown.legend, Text::ShowLegend),
+    ];
+    for (flag, text) in rows {
+        ui.checkbox(flag, text.in_language(lang));
+    }
 }
