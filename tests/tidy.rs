@@ -28,7 +28,7 @@ const HOMES: &[(&str, &[&str])] = &[
     ("pollster", &["engine/"]),
     ("rayon", &["bdpt/", "film/", "engine.rs", "engine/", "report/check/", "scene/gltf/images.rs"]),
     ("rfd", &["ui/"]),
-    ("statrs", &["report/check/"]),
+    ("statrs", &["engine/batches.rs", "report/check/"]),
     ("wgpu", &["gpu/", "ui/"]),
     ("winit", &["ui/"]),
 ];

@@ -33,10 +33,10 @@ mod inspect;
 mod layout;
 #[path = "ui/lens.rs"]
 mod lens;
-#[path = "ui/looks.rs"]
-mod looks;
 #[path = "ui/look_inspect.rs"]
 mod look_inspect;
+#[path = "ui/looks.rs"]
+mod looks;
 #[path = "ui/measure.rs"]
 mod measure;
 #[path = "ui/numbers.rs"]
@@ -55,10 +55,10 @@ mod screenshots;
 mod skip;
 #[path = "ui/space.rs"]
 mod space;
-#[path = "ui/study.rs"]
-mod study;
 #[path = "ui/space_looks.rs"]
 mod space_looks;
+#[path = "ui/study.rs"]
+mod study;
 #[path = "ui/surfaces.rs"]
 mod surfaces;
 #[path = "ui/surroundings.rs"]
@@ -243,6 +243,7 @@ fn hide_changes_the_image_at_once_and_remove_restarts() {
     });
     assert_eq!(window.query_all_by_role_and_label(Role::Button, "next event (1,2): removed").count(), 2, "the cell and the row say so");
     assert_record(&window);
+    click(&mut window, Role::Button, "Strategies ⏷");
     click(&mut window, Role::Button, "Restore removed");
     assert!(window.state().state().settings.strategies.contains(next_event));
 }

@@ -52,7 +52,7 @@ pub struct Session {
     counts: Counts,
     elapsed: Duration,
     cpu: Duration,
-    fallback: Option<String>,
+    fallback: Option<GpuError>,
     notice: Option<Notice>,
     losses: Vec<Instant>,
 }
@@ -212,7 +212,7 @@ impl Session {
             }
         }
         (self.preparing, self.notice) = (None, None);
-        self.fallback = Some(sentence(error));
+        self.fallback = Some(error.clone());
     }
 
     /// What is rendered.
@@ -287,7 +287,8 @@ impl Session {
         Stats {
             backend: backend.to_owned(),
             adapter,
-            fallback: self.fallback.clone(),
+            fallback: self.fallback.as_ref().map(sentence),
+            cause: self.fallback.clone(),
             notice,
             width: self.job.size[0],
             height: self.job.size[1],

@@ -1,5 +1,6 @@
 //! Counts and times of a session, and where they come from.
 
+use crate::gpu::GpuError;
 use serde::Serialize;
 use std::time::Duration;
 
@@ -22,6 +23,9 @@ pub struct Stats {
     pub adapter: String,
     /// Why the GPU does not render although it was to: one English sentence.
     pub fallback: Option<String>,
+    /// The same for who says it in another language.
+    #[serde(skip)]
+    pub cause: Option<GpuError>,
     /// What else is to be known about who renders.
     pub notice: Option<Notice>,
     /// Film width, pixels.

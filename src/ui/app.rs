@@ -14,6 +14,8 @@ use web_time::Instant;
 
 /// What the other panels leave to the image with its toolbar, points.
 const IMAGE_ROOM: Vec2 = vec2(560.0, 290.0);
+/// With less room between the other panels, the image and the 3-D view take turns, points.
+const SIDE_BY_SIDE: f32 = 640.0;
 /// Height of the pyramid in a window with room for it: three rows of cells, points.
 const PYRAMID_HEIGHT: f32 = 356.0;
 
@@ -142,8 +144,12 @@ impl App {
                     let panel = Panel::bottom("pyramid").frame(body).resizable(true).default_size((room.y * 0.43).min(PYRAMID_HEIGHT));
                     panel.size_range(130.0..=(room.y - IMAGE_ROOM.y).max(130.0)).show(ui, |ui| pyramid::show(ui, state, live, pictures));
                 }
-                if state.prefs.space_open {
-                    let room = ui.available_size();
+                let room = ui.available_size();
+                state.narrow = room.x < SIDE_BY_SIDE;
+                if state.narrow && state.space_in_front {
+                    return drop(whole.show(ui, |ui| space::show(ui, state, live, stage, gpu)));
+                }
+                if state.prefs.space_open && !state.narrow {
                     let panel = Panel::right("space").frame(body).resizable(true).default_size(room.x * 0.5);
                     panel.size_range(200.0..=(room.x - 240.0).max(200.0)).show(ui, |ui| space::show(ui, state, live, stage, gpu));
                 }

@@ -222,7 +222,7 @@ mod tests {
     #[test]
     fn what_is_no_number_is_marked_and_counted() {
         let pixels = vec![Vec3::NAN, Vec3::splat(0.5), Vec3::INFINITY];
-        let ready = order(&[pixels.clone()], Recipe::Look(Look::default()));
+        let ready = order(std::slice::from_ref(&pixels), Recipe::Look(Look::default()));
         assert_eq!((ready.marked, ready.image.pixels[0], ready.image.pixels[2]), (2, MARK, MARK));
         assert_eq!(ready.image.pixels[1], Color32::from_gray(188));
         let ready = order(&[pixels, vec![Vec3::ZERO; 3]], Recipe::Difference(Metric::Signed, 0.0));

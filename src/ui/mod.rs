@@ -36,6 +36,7 @@ mod places;
 mod preferences;
 mod projection;
 mod pyramid;
+mod pyramid_menus;
 mod render_menu;
 mod scene_menu;
 mod slot;

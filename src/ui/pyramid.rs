@@ -5,35 +5,35 @@ use super::cell;
 use super::format;
 use super::live::Live;
 use super::pictures::Pictures;
+use super::pyramid_menus;
 use super::slot;
-use super::state::{Gain, Maximised, State};
+use super::state::{Maximised, State};
 use super::study;
 use super::text::{StudyText, Text, fill};
-use super::widgets::{keep_together, role_help, role_name};
-use crate::bdpt::{Existence, Role, Strategy, StrategySet};
+use crate::bdpt::{Strategy, StrategySet};
 use crate::engine::{Frame, Mode, Study};
-use eframe::egui::{self, Button, Panel, RichText, ScrollArea, Slider, Ui, vec2};
+use eframe::egui::{self, Button, Panel, RichText, ScrollArea, Ui, vec2};
 use std::sync::Arc;
 
-const FAMILIES: [Role; 5] = [Role::EyeHitsLight, Role::NextEvent, Role::Connect, Role::LightTracer, Role::LightHitsLens];
 const ROW_HEAD: f32 = 108.0;
 const GAP: f32 = 6.0;
 /// Width of the card that says why, points.
 const WHY: f32 = 350.0;
-/// Length of the slider for the cells' size.
-const SLIDER: f32 = 70.0;
 
 /// Shows the pyramid.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures) {
     let existence = live.existence();
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 5.0;
-        toolbar(ui, state, &existence);
-        ui.separator();
-        families(ui, state, &existence);
-        ui.separator();
+        ui.label(RichText::new(state.say(Text::Pyramid)).heading()).on_hover_text(state.say(Text::HelpPyramid));
         study::toolbar::choice(ui, state);
-        brightness(ui, state);
+        pyramid_menus::strategies(ui, state, &existence);
+        pyramid_menus::cells(ui, state);
+        let alone = state.maximised == Maximised::Pyramid;
+        let button = Button::new(state.say(Text::Maximise)).selected(alone);
+        if ui.add(button).on_hover_text(state.say(Text::HelpMaximise)).clicked() {
+            state.maximised = if alone { Maximised::None } else { Maximised::Pyramid };
+        }
         study::toolbar::progress(ui, state, live);
     });
     ui.add_space(2.0);
@@ -73,67 +73,6 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
 /// The strategies of a path length, from s = 0 to t = 0.
 fn row(edges: u32) -> impl Iterator<Item = Strategy> {
     (0..=edges + 1).map(move |s| Strategy::new(s, edges + 1 - s))
-}
-
-fn toolbar(ui: &mut Ui, state: &mut State, existence: &Existence) {
-    ui.label(RichText::new(state.say(Text::Pyramid)).heading()).on_hover_text(state.say(Text::HelpPyramid));
-    if ui.button(state.say(Text::ShowAll)).on_hover_text(state.say(Text::HelpShowAll)).clicked() {
-        state.hidden = StrategySet::NONE;
-    }
-    if ui.button(state.say(Text::HideAll)).on_hover_text(state.say(Text::HelpHideAll)).clicked() {
-        state.hidden = StrategySet::ALL;
-    }
-    let selected = state.selection.strategy;
-    let only = ui.add_enabled(existence.absence(selected).is_none(), Button::new(state.say(Text::OnlySelected)));
-    if only.on_hover_text(state.say(Text::HelpOnlySelected)).clicked() {
-        state.hidden = StrategySet::where_(|x| x != selected);
-    }
-    if ui.button(state.say(Text::RestoreAll)).on_hover_text(state.say(Text::HelpRestoreAll)).clicked() {
-        state.settings.strategies = StrategySet::ALL;
-    }
-    let alone = state.maximised == Maximised::Pyramid;
-    let button = Button::new(state.say(Text::Maximise)).selected(alone);
-    if ui.add(button).on_hover_text(state.say(Text::HelpMaximise)).clicked() {
-        state.maximised = if alone { Maximised::None } else { Maximised::Pyramid };
-    }
-}
-
-fn families(ui: &mut Ui, state: &mut State, existence: &Existence) {
-    keep_together(ui, 200.0);
-    ui.label(state.say(Text::Families));
-    for role in FAMILIES {
-        let member = |x: &Strategy| x.role() == role;
-        let exists = || Strategy::all(state.settings.max_edges, true).filter(member).filter(|x| existence.absence(*x).is_none());
-        let Some(first) = exists().next() else { continue };
-        let name = match role {
-            Role::Connect => state.say(Text::FamilyConnect).to_owned(),
-            _ => role_name(first, state.prefs.lang),
-        };
-        let mut visible = exists().any(|x| !state.hidden.contains(x));
-        let help = format!("{}\n{}", state.say(role_help(role)), state.say(Text::HelpFamily));
-        let response = ui.toggle_value(&mut visible, name).on_hover_text(help);
-        if response.changed() {
-            if ui.input(|input| input.modifiers.shift) {
-                state.hidden = StrategySet::where_(|x| x.role() != role);
-            } else {
-                Strategy::all(crate::bdpt::MAX_EDGES as u32, true).filter(member).for_each(|x| state.hidden.set(x, !visible));
-            }
-        }
-    }
-}
-
-fn brightness(ui: &mut Ui, state: &mut State) {
-    keep_together(ui, 180.0);
-    ui.label(state.say(Text::Brightness));
-    for (gain, text, help) in [(Gain::Each, Text::GainEach, Text::HelpGainEach), (Gain::Same, Text::GainSame, Text::HelpGainSame)] {
-        let label = state.say(text);
-        ui.selectable_value(&mut state.prefs.gain, gain, label).on_hover_text(Text::in_language(help, state.prefs.lang));
-    }
-    // A slider does not wrap by itself.
-    keep_together(ui, SLIDER + 60.0);
-    let label = ui.label(state.say(Text::CellSize));
-    ui.spacing_mut().slider_width = SLIDER;
-    ui.add(Slider::new(&mut state.prefs.cell, 64.0..=260.0).show_value(false)).labelled_by(label.id);
 }
 
 /// A row in which nothing exists has nothing to switch.

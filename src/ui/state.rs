@@ -156,6 +156,10 @@ pub struct State {
     pub walk: Walk,
     /// The panel that has the window for itself.
     pub maximised: Maximised,
+    /// Is there room for only one of the image and the 3-D view? Found anew in every pass.
+    pub narrow: bool,
+    /// Then, the 3-D view is shown.
+    pub space_in_front: bool,
     /// Is the list of keys open?
     pub help: bool,
     /// The 3-D view.
@@ -203,6 +207,8 @@ impl State {
             compare: CompareState::default(),
             walk: Walk::Full,
             maximised: Maximised::None,
+            narrow: false,
+            space_in_front: false,
             help: false,
             space: SpaceState::default(),
             edit: EditState::default(),

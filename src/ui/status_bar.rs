@@ -5,7 +5,7 @@ use super::format;
 use super::image_view::Pointer;
 use super::live::Live;
 use super::state::State;
-use super::text::{Lang, Text, ViewText, fill};
+use super::text::{Lang, Text, ViewText, fill, gpu_error};
 use crate::engine::{Backend, Notice, Stats};
 use eframe::egui::{self, Align, Color32, Label, Layout, RichText, Ui, WidgetText, vec2};
 
@@ -93,7 +93,11 @@ fn who_renders(stats: &Stats, lang: Lang) -> String {
 
 /// That the CPU renders what was meant for the GPU, and why.
 fn fell_back(stats: &Stats, lang: Lang) -> Option<String> {
-    stats.fallback.as_ref().map(|why| fill(Text::FellBack.in_language(lang), &[why]))
+    let why = match (&stats.cause, lang) {
+        (Some(cause), Lang::Zh) => gpu_error(cause),
+        _ => stats.fallback.clone()?,
+    };
+    Some(fill(Text::FellBack.in_language(lang), &[&why]))
 }
 
 /// What else is to be known about who renders, and whether it is a warning.

@@ -51,6 +51,7 @@ pub use view::ViewText;
 
 use crate::bdpt::record::SplitReason;
 use crate::bdpt::{Absence, End, Reason};
+use crate::gpu::GpuError;
 use serde::{Deserialize, Serialize};
 
 /// The window's languages.
@@ -180,6 +181,24 @@ pub fn split_reason(reason: SplitReason, lang: Lang) -> &'static str {
         SplitReason::Removed => Text::SplitRemoved,
     };
     text.in_language(lang)
+}
+
+/// Why the GPU does not render, in Chinese (the error itself says it in English). What a driver says stays as it is.
+pub fn gpu_error(error: &GpuError) -> String {
+    let mib = |bytes: &u64| (bytes.div_ceil(1 << 20)).to_string();
+    match error {
+        GpuError::NoAdapter(why) => format!("没有可用于计算着色器的图形适配器（{why}）。"),
+        GpuError::CannotCompute { adapter, lacks } => format!("图形适配器 {adapter} 缺少 {lacks}。"),
+        GpuError::SoftwareOnly(adapter) => format!("唯一的图形适配器 {adapter} 在处理器上运行，CPU 渲染器更快。"),
+        GpuError::NoDevice(why) => format!("图形适配器未提供设备：{why}。"),
+        GpuError::Shader(message) => format!("着色器无法编译：{message}。"),
+        GpuError::NoThread => "没有用于编译内核的线程。".to_owned(),
+        GpuError::TooLarge { what, need, have } => format!("{what} 需要 {} MiB 显存，上限为 {} MiB。", mib(need), mib(have)),
+        GpuError::OutOfMemory(what) => format!("显存不足：{what}。"),
+        GpuError::Lost(why) => format!("图形设备丢失（{why}）。"),
+        GpuError::WrongResult(what) => format!("图形适配器计算有误：{what}。"),
+        GpuError::Refused(message) => format!("图形接口拒绝了调用：{message}。"),
+    }
 }
 
 /// Why a subpath has no further vertex.

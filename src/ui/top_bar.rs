@@ -57,7 +57,8 @@ fn at_the_right(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
 fn window_switches(ui: &mut Ui, state: &mut State) {
     let help = Text::HelpTogglePanel.in_language(state.prefs.lang);
     let label = state.say(Text::Space);
-    ui.toggle_value(&mut state.prefs.space_open, label).on_hover_text(help);
+    let space = if state.narrow { &mut state.space_in_front } else { &mut state.prefs.space_open };
+    ui.toggle_value(space, label).on_hover_text(help);
     let label = state.say(Text::Inspector);
     ui.toggle_value(&mut state.prefs.inspector_open, label).on_hover_text(help);
     let label = state.say(Text::Pyramid);

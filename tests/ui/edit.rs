@@ -198,6 +198,9 @@ fn numbers_that_cannot_be_rendered_are_refused_in_a_sentence() {
     // What a link might bring.
     let json = r#"{"version":1,"materials":{"7000":{"name":"nowhere","roughness":0.5}}}"#;
     window.state_mut().state_mut().edit.edits = serde_json::from_str(json).expect("edits");
+    until(&mut window, "the refusal", |app| {
+        app.state().messages.iter().any(|m| m.error && m.text.contains("the scene has no such material"))
+    });
     window.run_steps(3);
     assert!(window.query_by_label_contains("the scene has no such material").is_some());
     assert!(window.state().state().edit.edits.materials.is_empty(), "what was accepted last stays");

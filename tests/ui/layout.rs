@@ -1,6 +1,7 @@
 //! Layout and input under stress: narrow windows, both languages, keys faster than frames, menus that must stay open.
 
 use super::*;
+use bdpt_explorer::ui::text::StudyText;
 use eframe::egui::Rect;
 
 /// The named widgets that are entirely above the image's toolbar: those of the top bar.
@@ -138,10 +139,10 @@ fn the_smallest_window_leaves_room_for_the_image() {
         window.run_steps(6);
         let corner = window.state().on_screen([SIZE[0], SIZE[1]]) - window.state().on_screen([0, 0]);
         assert!(corner.x >= 150.0, "{lang:?}: the image is {} points wide", corner.x);
-        let name = Text::CellSize.in_language(lang);
-        let slider = window.get_by_role_and_label(Role::Slider, name).rect();
+        let menu = format!("{} ⏷", StudyText::CellsMenu.in_language(lang));
+        let menu = window.get_by_role_and_label(Role::Button, &menu).rect();
         let inspector = window.get_by_label_contains(if lang == Lang::En { "How pixel" } else { "是怎样得到的" }).rect().left();
-        assert!(slider.right() < inspector - 8.0 && slider.bottom() < 640.0, "{slider:?} and the inspector at {inspector}");
+        assert!(menu.right() < inspector - 8.0 && menu.bottom() < 640.0, "{menu:?} and the inspector at {inspector}");
     }
 }
 

@@ -27,7 +27,10 @@ fn an_open_aperture_restarts_the_rendering_and_brings_light_that_hits_the_lens()
     let mut window = cornell();
     let why = "light hits lens (3,0): does not exist here: a pinhole has no area";
     assert!(window.query_by_label_contains(why).is_some());
+    click(&mut window, Role::Button, "Strategies ⏷");
+    assert!(window.query_by_role_and_label(Role::Button, "light tracer").is_some(), "a family");
     assert!(window.query_by_role_and_label(Role::Button, "light hits lens").is_none(), "no such family yet");
+    press(&mut window, Key::Escape);
     let before = generation(&window);
     open_aperture(&mut window, "0.05");
     settle(&mut window);
@@ -38,7 +41,9 @@ fn an_open_aperture_restarts_the_rendering_and_brings_light_that_hits_the_lens()
         let name = format!("light hits lens ({},0): hide", k + 1);
         assert!(window.query_by_role_and_label(Role::CheckBox, &name).is_some(), "{name}");
     }
+    click(&mut window, Role::Button, "Strategies ⏷");
     window.get_by_role_and_label(Role::Button, "light hits lens");
+    press(&mut window, Key::Escape);
     until(&mut window, "its picture", |app| {
         app.live().frame().is_some_and(|f| f.thumbnails.iter().any(|x| x.strategy == Strategy::new(7, 0)))
     });

@@ -3,11 +3,9 @@
 use super::*;
 use bdpt_explorer::bdpt::StrategySet;
 use bdpt_explorer::engine::{Mode, Values};
-use bdpt_explorer::film::difference::{Metric, figures};
-use bdpt_explorer::film::save::{Layer, Window, save_exr};
 use bdpt_explorer::film::tonemap::ToneMap;
-use bdpt_explorer::ui::state::{CompareMode, Placement, Source};
-use bdpt_explorer::ui::text::{ViewText, fill};
+use bdpt_explorer::ui::state::{Placement, Source};
+use bdpt_explorer::ui::text::ViewText;
 
 /// The window's rendering stands still, after at least a pass.
 pub(super) fn still(window: &mut Harness<'static, App>) {

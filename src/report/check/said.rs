@@ -77,8 +77,8 @@ phrases! {
     LookHitsLight: "src/bdpt/path.rs, join_at_light, and src/scene/light.rs: L_e and P_A(x₀).";
     LookNextEvent: "src/bdpt/ends.rs: the fresh light end; src/bdpt/connect.rs: c_{1,t}.";
     LookLightTracer: "src/bdpt/connect.rs, lens_factor, and src/scene/camera.rs: W_e and P_σ⊥.";
-    LookHitsLens: "src/bdpt/crossing.rs: p = m + l/d, W_e⁽⁰⁾ W_e⁽¹⁾ / n.";
-    LookConnect: "src/bdpt/connect.rs: c_{s,t} = f̄ G V f̄; src/scene/bsdf.rs.";
+    LookHitsLens: "src/bdpt/crossing.rs: p = m + l/d, W_e / n.";
+    LookConnect: "src/bdpt/connect.rs: c_{s,t} = f G V f; src/scene/bsdf.rs.";
     WrongFurnace: "Paths with k = {} carry {} ± {} where they must carry {}: light is lost or counted twice.";
     WrongFurnaceSum: "All lengths together carry {} ± {} where they must carry {}: light is lost or counted twice.";
     LookFurnace: "src/bdpt/mis.rs and path.rs (weights), src/bdpt/context.rs (survival: q must be in p both ways), src/scene/bsdf/lambert.rs. Run `replay` and `pairwise`, which say which strategy.";

@@ -88,7 +88,7 @@ fn keep(state: &mut State, live: &Live) -> bool {
         return false;
     }
     let picture = Picture { size: found.content.size(), pixels: found.content.pixels().into_owned() };
-    let id = state.compare.add(About::Rendered(rendered), Arc::new(picture), found.content.scale());
+    let id = state.compare.add(About::Rendered(Box::new(rendered)), Arc::new(picture), found.content.scale());
     state.compare.b.get_or_insert(Source::Kept(id));
     true
 }

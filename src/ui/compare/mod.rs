@@ -41,7 +41,7 @@ impl Mode {
 #[derive(Clone, Debug, PartialEq)]
 pub enum About {
     /// A rendering, as it was when it was kept.
-    Rendered(Rendered),
+    Rendered(Box<Rendered>),
     /// The file it was read from.
     File(String),
 }

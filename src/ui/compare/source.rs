@@ -191,7 +191,7 @@ pub fn rendered(state: &State, live: &Live, source: Source) -> Option<Rendered> 
     if let Source::Kept(id) = source {
         let kept = state.compare.kept.iter().find(|kept| kept.id == id)?;
         return match &kept.about {
-            About::Rendered(rendered) => Some(rendered.clone()),
+            About::Rendered(rendered) => Some((**rendered).clone()),
             About::File(_) => None,
         };
     }

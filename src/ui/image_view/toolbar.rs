@@ -30,7 +30,7 @@ fn tone_name(state: &State, tonemap: ToneMap) -> &'static str {
 }
 
 /// A view narrower than this keeps what is used less in a menu, points.
-pub const WIDE: f32 = 500.0;
+pub const WIDE: f32 = 900.0;
 
 /// Shows it.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {

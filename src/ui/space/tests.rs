@@ -35,7 +35,7 @@ fn through_the_camera_everything_is_where_the_image_has_it() {
     for job in jobs() {
         let view = projector(&state(true), &job, PANEL);
         assert!(PANEL.contains_rect(view.image));
-        let image = Projector::new(&job.scene, job.camera, job.size, [view.image, PANEL]).unwrap();
+        let image = Projector::new(&job.scene, &job.posed_camera(), job.size, [view.image, PANEL]);
         for record in records(&job) {
             for vertex in record.eye.vertices.iter().chain(&record.light.vertices) {
                 assert_eq!(view.point(vertex.position), image.point(vertex.position));

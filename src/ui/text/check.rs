@@ -106,8 +106,8 @@ fn chinese(phrase: Phrase) -> &'static str {
         Phrase::LookHitsLight => "src/bdpt/path.rs 的 join_at_light 与 src/scene/light.rs：L_e 与 P_A(x₀)。",
         Phrase::LookNextEvent => "src/bdpt/ends.rs：新选取的光源端点；src/bdpt/connect.rs：c_{1,t}。",
         Phrase::LookLightTracer => "src/bdpt/connect.rs 的 lens_factor 与 src/scene/camera.rs：W_e 与 P_σ⊥。",
-        Phrase::LookHitsLens => "src/bdpt/crossing.rs：p = m + l/d，W_e⁽⁰⁾ W_e⁽¹⁾ / n。",
-        Phrase::LookConnect => "src/bdpt/connect.rs：c_{s,t} = f̄ G V f̄；src/scene/bsdf.rs。",
+        Phrase::LookHitsLens => "src/bdpt/crossing.rs：p = m + l/d，W_e / n。",
+        Phrase::LookConnect => "src/bdpt/connect.rs：c_{s,t} = f G V f；src/scene/bsdf.rs。",
         Phrase::WrongFurnace => "{} 条边的路径带来 {} ± {}，而应为 {}：有光丢失或被重复计算。",
         Phrase::WrongFurnaceSum => "所有长度合计带来 {} ± {}，而应为 {}：有光丢失或被重复计算。",
         Phrase::LookFurnace => {

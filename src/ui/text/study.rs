@@ -60,4 +60,8 @@ texts! { StudyText;
     Interval: "± {}", "± {}";
     HelpInterval: "95 % confidence interval of the pixel's mean: red {}, green {}, blue {}; from {} batches of {} passes. It holds for the mean of a converging pixel; fireflies not met yet are not in it.", "像素均值的 95% 置信区间：红 {}，绿 {}，蓝 {}；由 {} 批共 {} 遍得出。尚未遇到的亮斑不在其中。";
     HelpNoInterval: "95 % confidence interval: – until there are four batches of complete passes. It begins anew when strategies are hidden or shown.", "95% 置信区间：至少四批完整渲染遍数之后才给出；隐藏或显示策略后重新开始。";
+    StrategiesMenu: "Strategies", "策略";
+    HelpStrategiesMenu: "Which strategies are in the sum: all, none, one, or by their kind", "哪些策略计入总和：全部、无、单个或按类别";
+    CellsMenu: "Cells", "格子";
+    HelpCellsMenu: "Brightness and size of the cells", "格子的亮度与大小";
 }
