@@ -14,6 +14,8 @@ pub fn show(ctx: &egui::Context, state: &mut State) {
         .collapsible(false)
         .resizable(false)
         .anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0))
+        .vscroll(true)
+        .max_height(ctx.content_rect().height() - 90.0)
         .show(ctx, |ui| {
             ui.set_max_width(520.0);
             Grid::new("keys").num_columns(2).spacing(vec2(24.0, 6.0)).striped(true).show(ui, |ui| {

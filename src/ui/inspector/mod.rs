@@ -90,6 +90,13 @@ fn header(ui: &mut Ui, state: &mut State, live: &Live) {
     let [x, y] = state.selection.pixel.map(|v| v.to_string());
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new(fill(state.say(Text::InspectorTitle), &[&x, &y])).heading());
+        if let Some(record) = live.record(state) {
+            let feasible = record.strategies.iter().filter(|x| x.feasible).count().to_string();
+            let existence = live.existence();
+            let all = record.strategies.iter().filter(|x| existence.absence(x.strategy()).is_none()).count().to_string();
+            let count = ui.label(RichText::new(fill(state.say(Text::FeasibleCount), &[&feasible, &all])).weak());
+            cite(&count, || "count:/strategies".to_owned());
+        }
     });
     ui.horizontal_wrapped(|ui| {
         let hint = keys::hint(state, Text::KeySample, Action::Sample);
@@ -104,16 +111,9 @@ fn header(ui: &mut Ui, state: &mut State, live: &Live) {
         search::buttons(ui, state);
     });
     if let Some(record) = live.record(state) {
-        let feasible = record.strategies.iter().filter(|x| x.feasible).count().to_string();
-        let existence = live.existence();
-        let all = record.strategies.iter().filter(|x| existence.absence(x.strategy()).is_none()).count().to_string();
         let sum = format::rgb(on_its_pixel(record).to_array());
-        ui.horizontal_wrapped(|ui| {
-            let adds = ui.add(Label::new(fill(state.say(Text::SampleAdds), &[&sum]))).on_hover_text(state.say(Text::HelpSampleAdds));
-            cite(&adds, || "adds:/strategies".to_owned());
-            let count = ui.label(RichText::new(fill(state.say(Text::FeasibleCount), &[&feasible, &all])).weak());
-            cite(&count, || "count:/strategies".to_owned());
-        });
+        let adds = ui.add(Label::new(fill(state.say(Text::SampleAdds), &[&sum])).truncate()).on_hover_text(state.say(Text::HelpSampleAdds));
+        cite(&adds, || "adds:/strategies".to_owned());
     }
 }
 
