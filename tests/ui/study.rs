@@ -148,6 +148,7 @@ fn the_pixels_interval_is_the_engines_and_begins_anew_when_the_sum_changes() {
     window.state_mut().state_mut().hidden.set(Strategy::new(1, 2), true);
     until(&mut window, "the other sum", |app| app.live().frame().is_some_and(|frame| frame.hidden.contains(Strategy::new(1, 2))));
     assert!(window.state().live().frame().expect("a frame").intervals.is_none());
+    window.run_steps(2);
     assert!(window.query_by_label_contains("± –").is_some());
 }
 
