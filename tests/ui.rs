@@ -21,6 +21,8 @@ mod checks;
 mod compare;
 #[path = "ui/edit.rs"]
 mod edit;
+#[path = "ui/escape.rs"]
+mod escape;
 #[path = "ui/existence.rs"]
 mod existence;
 #[path = "ui/gallery.rs"]

@@ -182,8 +182,9 @@ impl Survey {
         let strategies: Vec<_> = plan.strategies().collect();
         let (mut block, mut count) = (1, 0);
         if let Some(bytes) = bytes {
-            let needs = |block: u32| strategies.len() * blocks(size, block) * size_of::<Tally>();
-            while needs(block) > bytes && block < size[0].max(size[1]) {
+            // In a browser a usize has 32 bits.
+            let needs = |block: u32| (strategies.len() * size_of::<Tally>()) as u64 * blocks(size, block) as u64;
+            while needs(block) > bytes as u64 && block < size[0].max(size[1]) {
                 block += 1;
             }
             count = strategies.len() * blocks(size, block);

@@ -110,6 +110,8 @@ impl App {
     }
 
     fn panels(&mut self, ui: &mut Ui, gpu: Option<&RenderState>) {
+        // A view that is not shown hears no keys.
+        self.state.space.attention = Default::default();
         let Self { state, live, pictures, desk, stage, .. } = self;
         // The window is cleared to the panels' ground: painting it once more would cost a software adapter a whole frame's time.
         let bar = |top: i8| {

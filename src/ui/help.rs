@@ -24,6 +24,8 @@ pub fn show(ctx: &egui::Context, state: &mut State) {
                     ui.label(state.say(row.text));
                     ui.end_row();
                 }
+                ui.label(RichText::new(state.say(Text::HelpKeysSpace)).strong());
+                ui.end_row();
                 for row in keys::SPACE {
                     ui.label(RichText::new(row.shown).monospace());
                     ui.label(state.say(row.text));

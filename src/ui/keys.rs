@@ -186,12 +186,14 @@ pub fn obey(ctx: &egui::Context, state: &mut State, image: egui::Id) {
         return;
     }
     let elsewhere = ctx.memory(|memory| memory.focused()).is_some_and(|id| id != image);
+    // Esc closes a menu, or leaves a text field (which has lost the focus by now), and does nothing else then.
+    let closing = egui::Popup::is_any_open(ctx) || ctx.data(|data| data.get_temp(typing())).unwrap_or(false);
     for Press { key: pressed, shift, repeat, command } in ctx.input(presses) {
         if !command && in_space(state, pressed) {
             continue;
         }
         for row in TABLE {
-            let kept = elsewhere && matches!(row.action, Action::Nudge | Action::Vertex);
+            let kept = (elsewhere && matches!(row.action, Action::Nudge | Action::Vertex)) || (closing && row.action == Action::Back);
             if kept || command != row.command() || (shift && !row.shift) || (repeat && !row.repeats()) {
                 continue;
             }
@@ -225,8 +227,15 @@ fn presses(input: &egui::InputState) -> Vec<Press> {
     input.events.iter().filter_map(key).collect()
 }
 
+/// Where is kept whether a text field had the focus at the end of the last pass.
+fn typing() -> egui::Id {
+    egui::Id::unique("typing")
+}
+
 /// A click leaves the keyboard to the image; only a text field keeps it. (Tab still goes anywhere.)
 pub fn release_after_click(ctx: &egui::Context) {
+    let typed = ctx.text_edit_focused();
+    ctx.data_mut(|data| data.insert_temp(typing(), typed));
     if ctx.input(|input| input.pointer.any_click()) && !ctx.text_edit_focused() {
         ctx.memory_mut(|memory| {
             if let Some(id) = memory.focused() {

@@ -9,7 +9,7 @@ use super::text::{EditText, Text};
 use super::widgets::labelled;
 use crate::scene::environment::EnvironmentSource;
 use crate::scene::{Scene, builtin};
-use eframe::egui::{ComboBox, DragValue, Key, Label, PopupCloseBehavior, RichText, TextEdit, Ui};
+use eframe::egui::{ComboBox, DragValue, Key, Label, PopupCloseBehavior, RichText, Role, TextEdit, Ui, WidgetInfo};
 use std::path::Path;
 
 /// The menu holds a path to read and every built-in scene without scrolling, points.
@@ -53,7 +53,10 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     let help = format!("{current}\n{}", state.say(Text::HelpScene));
     response.response.labelled_by(label.id).on_hover_text(help);
     if live.loading().is_some() {
-        ui.spinner().on_hover_text(live.loading_text(state));
+        let words = live.loading_text(state);
+        let spinner = ui.spinner();
+        spinner.widget_info(|| WidgetInfo::labeled(Role::ProgressIndicator, true, &words));
+        spinner.on_hover_text(&words);
     }
 }
 

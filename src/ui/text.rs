@@ -171,6 +171,21 @@ pub fn light_kind(kind: &str, lang: Lang) -> &'static str {
     text.in_language(lang)
 }
 
+/// What a material does with light (`VertexRecord::model`).
+pub fn material_kind(kind: &'static str, lang: Lang) -> &'static str {
+    match (lang, kind) {
+        (Lang::En, _) => kind,
+        (_, "lambert") => "漫反射",
+        (_, "mirror") => "镜面",
+        (_, "dielectric") => "玻璃",
+        (_, "thin dielectric") => "薄玻璃",
+        (_, "rough metal") => "粗糙金属",
+        (_, "coat") => "涂层",
+        (_, "unlit") => "无光照材质",
+        _ => kind,
+    }
+}
+
 /// Why a split cannot make the path.
 pub fn split_reason(reason: SplitReason, lang: Lang) -> &'static str {
     let text = match reason {

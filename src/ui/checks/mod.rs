@@ -74,7 +74,8 @@ fn controls(ui: &mut Ui, state: &mut State, runner: &Runner) {
     if let Some((check, share, all)) = runner.progress() {
         let percent = format!("{:.0}", share * 100.0);
         let name = phrase_text(check.name(), state.prefs.lang);
-        ui.add(ProgressBar::new(all as f32).desired_height(6.0));
+        let bar = ui.add(ProgressBar::new(all as f32).desired_height(6.0));
+        bar.widget_info(|| WidgetInfo::labeled(Role::ProgressIndicator, true, name));
         ui.label(RichText::new(fill(state.say(CheckText::Running), &[name, &percent])).weak());
     }
 }

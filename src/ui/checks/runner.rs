@@ -2,7 +2,7 @@
 //! would share the processor, and neither would be done sooner.
 
 use super::super::state::State;
-use super::super::text::{CheckText, fill};
+use super::super::text::{CheckText, fill, phrase_text};
 use super::super::wake::Wake;
 use super::Ask;
 use crate::bdpt::Settings;
@@ -10,14 +10,14 @@ use crate::engine::{Engine, Job};
 use crate::report::check::{self, Check, CheckResult, Effort, Event, Wanted};
 use crate::scene::Scene;
 use std::collections::BTreeMap;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::{Arc, Weak};
 
 /// What results are about; when it changes, they are out of date.
 #[derive(Clone)]
 struct Subject {
-    scene: Arc<Scene>,
+    scene: Weak<Scene>,
     /// Camera, lens and film, whatever they depend on.
     view: String,
     settings: Settings,
@@ -25,11 +25,14 @@ struct Subject {
 
 impl Subject {
     fn of(job: &Job) -> Self {
-        Self { scene: job.scene.clone(), view: format!("{:?}", job.view()), settings: job.settings }
+        // The checks take all strategies and weights of their own.
+        let Settings { heuristic, strategies, .. } = Settings::default();
+        let settings = Settings { heuristic, strategies, ..job.settings };
+        Self { scene: Arc::downgrade(&job.scene), view: format!("{:?}", job.view()), settings }
     }
 
     fn is(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.scene, &other.scene) && self.view == other.view && self.settings == other.settings
+        Weak::ptr_eq(&self.scene, &other.scene) && self.view == other.view && self.settings == other.settings
     }
 }
 
@@ -44,6 +47,15 @@ struct Underway {
     share: f64,
     /// How many there are in all.
     count: usize,
+}
+
+/// Wakes the window when it goes.
+struct Waker<'a>(&'a Wake);
+
+impl Drop for Waker<'_> {
+    fn drop(&mut self) {
+        self.0.now();
+    }
 }
 
 impl Drop for Underway {
@@ -80,7 +92,7 @@ impl Runner {
         if outdated {
             self.underway = None;
         }
-        self.listen() || asked || outdated
+        self.listen(state) || asked || outdated
     }
 
     fn start(&mut self, state: &mut State, job: &Job, checks: Vec<Check>, wake: &Wake) {
@@ -91,14 +103,15 @@ impl Runner {
         let effort = if state.checks.thorough { Effort::Thorough } else { Effort::Quick };
         let (wanted, own_job, own_cancel, wake) = (Wanted::new(checks.clone(), effort), job.clone(), cancel.clone(), wake.clone());
         let work = move || {
+            // Also when a check fails unexpectedly, somebody must hear of it, once the sender is gone.
+            let _last = Waker(&wake);
+            let sender = sender;
             let mut tell = |event| {
                 // Who does not listen any more has cancelled.
                 drop(sender.send(event));
                 wake.now();
             };
             check::run(&own_job, &wanted, &mut tell, &own_cancel);
-            drop(sender);
-            wake.now();
         };
         match std::thread::Builder::new().name("checks".to_owned()).spawn(work) {
             Ok(_) => {
@@ -109,7 +122,7 @@ impl Runner {
         }
     }
 
-    fn listen(&mut self) -> bool {
+    fn listen(&mut self, state: &mut State) -> bool {
         let Some(run) = &mut self.underway else { return false };
         let mut news = false;
         loop {
@@ -122,6 +135,10 @@ impl Runner {
                 }
                 Err(TryRecvError::Empty) => return news,
                 Err(TryRecvError::Disconnected) => {
+                    if let Some(check) = run.left.first() {
+                        let name = phrase_text(check.name(), state.prefs.lang);
+                        state.tell(true, fill(state.say(CheckText::Died), &[name]));
+                    }
                     self.underway = None;
                     return true;
                 }

@@ -5,7 +5,7 @@ use crate::scene::edit::{IORS, MaterialEdit, hue_and_strength};
 use crate::scene::material::UNLIT;
 use crate::scene::{NONE, Scene};
 use crate::ui::state::State;
-use crate::ui::text::EditText;
+use crate::ui::text::{EditText, material_kind};
 use eframe::egui::{RichText, Ui};
 
 const IOR: Scale = Scale { slider: [1.0, 3.0], range: IORS, smallest: None, unit: "" };
@@ -23,7 +23,7 @@ pub fn show(ui: &mut Ui, state: &mut State, (file, scene): (&Scene, &Scene), ind
     let mut edit = old.clone();
     let lang = state.prefs.lang;
     let named = |name: EditText, help: EditText| Named { lang, item: &old.name, name, help };
-    rows::item(ui, &format!("{name} · {}", material.kind_name()), !old.is_empty(), open, |ui| {
+    rows::item(ui, &format!("{name} · {}", material_kind(material.kind_name(), lang)), !old.is_empty(), open, |ui| {
         rows::grid(ui, |ui| {
             let unlit = own.has(UNLIT);
             if !unlit {

@@ -9,7 +9,7 @@ use super::text::{ExportText, fill};
 use super::widgets::labelled;
 use crate::report::export::{file_stem, scene_stem};
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
-use eframe::egui::{Button, Key, Label, PopupCloseBehavior, RichText, TextEdit, Ui};
+use eframe::egui::{Button, Key, Label, PopupCloseBehavior, RichText, Role, TextEdit, Ui, WidgetInfo};
 use std::path::{Path, PathBuf};
 
 const WIDTH: f32 = 330.0;
@@ -102,7 +102,10 @@ fn menu(ui: &mut Ui, state: &mut State, live: &Live) {
     }
     let entered = path_field(ui, state);
     let path = PathBuf::from(state.export.path.trim());
-    let something = live.frame().is_some() && live.record(state).is_some();
+    let something = match state.export.what {
+        What::Seen | What::Radiance | What::Layers => live.frame().is_some(),
+        _ => live.record(state).is_some(),
+    };
     ui.horizontal(|ui| {
         let save = ui.add_enabled(something && !path.as_os_str().is_empty(), Button::new(state.say(ExportText::SaveNow)));
         if save.on_disabled_hover_text(state.say(ExportText::NothingYet)).clicked() || (entered && something) {
@@ -113,7 +116,8 @@ fn menu(ui: &mut Ui, state: &mut State, live: &Live) {
             }
         }
         if state.export.underway > 0 {
-            ui.spinner();
+            let name = state.say(ExportText::Saving);
+            ui.spinner().widget_info(|| WidgetInfo::labeled(Role::ProgressIndicator, true, name));
             ui.label(RichText::new(state.say(ExportText::Saving)).weak());
         }
     });

@@ -6,7 +6,7 @@ use crate::bdpt::record::{EdgeRecord, VertexRecord};
 use crate::ui::cite::cite;
 use crate::ui::format::{self, number, position, rgb, unit};
 use crate::ui::state::State;
-use crate::ui::text::{InspectText, Text, Words, fill, light_kind};
+use crate::ui::text::{InspectText, Text, Words, fill, light_kind, material_kind};
 use crate::ui::theme;
 use eframe::egui::{
     Color32, CornerRadius, Frame, Grid, Label, Margin, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, vec2,
@@ -81,7 +81,8 @@ fn head(ui: &mut Ui, state: &State, card: &Card<'_>) {
             ("light" | "infinity", kind) => light_kind(kind.unwrap_or_default(), state.prefs.lang),
             _ => state.say(Text::KindSurface),
         };
-        let names = [vertex.light_name.as_deref(), vertex.material.as_deref(), vertex.model];
+        let model = vertex.model.map(|model| material_kind(model, state.prefs.lang));
+        let names = [vertex.light_name.as_deref(), vertex.material.as_deref(), model];
         let names = names.into_iter().flatten().filter(|name| !name.is_empty()).collect::<Vec<_>>().join(", ");
         ui.label(if names.is_empty() { what.to_owned() } else { format!("{what} · {names}") });
         if fresh {

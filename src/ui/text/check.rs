@@ -29,6 +29,7 @@ texts! { CheckText;
     SummaryPassed: "{} of {} passed", "{} / {} 项通过";
     SummaryFailed: "{} failed", "{} 项未通过";
     NoScene: "There is no scene to check yet.", "尚无可检查的场景。";
+    Died: "{}: the check ended unexpectedly; please report the scene and the settings", "{}：检查意外终止，请反馈场景与设置";
     NoThread: "Checks need a thread of their own, and there is none to be had here: {}", "检查需要独立的线程，而此处无法创建：{}";
 }
 

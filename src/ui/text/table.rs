@@ -334,6 +334,7 @@ texts! { Text;
     FeatureSpot: "spot lights", "聚光灯";
     FeatureDirectional: "directional lights", "平行光";
     FeatureEnvironment: "environment", "环境光";
+    HelpKeysSpace: "In the 3-D view:", "在三维视图中：";
     FeatureMirror: "mirror", "镜面";
     FeatureGlass: "glass", "玻璃";
     FeatureThinGlass: "thin glass", "薄玻璃";
