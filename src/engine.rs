@@ -24,7 +24,7 @@ mod surveyor;
 mod thread;
 pub use batches::Intervals;
 pub use device::device_in_use;
-pub use frame::{Frame, Thumbnail};
+pub use frame::{Frame, PixelMeans, Thumbnail};
 pub use job::{Backend, FILM_BUDGET, Job, JobError, MAX_SIDE};
 pub use lobe::{Lobe, lobe};
 pub use picture::{Mode, Picture, Source, Values};

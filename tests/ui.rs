@@ -43,6 +43,8 @@ mod looks;
 mod measure;
 #[path = "ui/numbers.rs"]
 mod numbers;
+#[path = "ui/pixel.rs"]
+mod pixel;
 #[path = "ui/random.rs"]
 mod random;
 #[path = "ui/renderer.rs"]

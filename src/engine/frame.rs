@@ -23,6 +23,15 @@ pub struct Thumbnail {
     pub share: f64,
 }
 
+/// What every strategy has added to one pixel so far.
+#[derive(Clone, Debug, Default)]
+pub struct PixelMeans {
+    /// The pixel, from the top left.
+    pub pixel: [u32; 2],
+    /// Mean weighted contribution over all passes, radiance, in index order. With what is hidden.
+    pub means: Vec<(Strategy, Vec3)>,
+}
+
 /// What the window shows; made a few times a second.
 #[derive(Clone, Debug)]
 pub struct Frame {
@@ -34,6 +43,8 @@ pub struct Frame {
     pub image: Vec<Vec3>,
     /// One per strategy that takes part, in index order.
     pub thumbnails: Vec<Thumbnail>,
+    /// The selected pixel, strategy by strategy.
+    pub pixel: PixelMeans,
     /// The strategies that were left out of the sum.
     pub hidden: StrategySet,
     /// How sure the image is, once there are passes enough.
@@ -45,7 +56,7 @@ pub struct Frame {
 }
 
 /// One look at a session: every sum is read once, for the image and for its thumbnail, rows in parallel.
-pub(super) fn make_frame(session: &Session, generation: u64, hidden: StrategySet) -> Frame {
+pub(super) fn make_frame(session: &Session, generation: u64, hidden: StrategySet, pixel: [u32; 2]) -> Frame {
     let ([width, height], (film, plan)) = (session.job().size, session.parts());
     let factor = width.max(height).div_ceil(THUMBNAIL_SIDE).max(1);
     let small = [width.div_ceil(factor), height.div_ceil(factor)];
@@ -75,9 +86,13 @@ pub(super) fn make_frame(session: &Session, generation: u64, hidden: StrategySet
         .collect();
 
     let thumbnails = thumbnails(&layers.iter().map(|(x, _, _)| *x).collect::<Vec<_>>(), small, &thumbnail_rows, [width, height], factor);
+    let at = pixel[1] as usize * width as usize + pixel[0] as usize;
+    let inside = pixel[0] < width && pixel[1] < height;
+    let of_pixel = layers.iter().filter(|_| inside).map(|(strategy, layer, _)| (*strategy, layer.mean(&means, at))).collect();
+    let pixel = PixelMeans { pixel, means: of_pixel };
     let stats = session.stats();
     let pairs_per_second = if stats.seconds > 0.0 { stats.pairs as f64 / stats.seconds } else { 0.0 };
-    Frame { generation, size: [width, height], image, thumbnails, hidden, intervals: None, stats, pairs_per_second }
+    Frame { generation, size: [width, height], image, thumbnails, pixel, hidden, intervals: None, stats, pairs_per_second }
 }
 
 /// Thumbnails from their rows of sums, with each one's share of the energy.

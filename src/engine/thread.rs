@@ -31,6 +31,8 @@ enum Command {
     Restart(Box<Job>, u64),
     Hide(Box<StrategySet>),
     Pause(bool),
+    /// The pixel to be told about, strategy by strategy.
+    Pixel([u32; 2]),
     /// Somebody looks at another picture.
     Look,
     Layers(Sender<Layers>),
@@ -43,6 +45,7 @@ pub struct Engine {
     generation: u64,
     hidden: StrategySet,
     paused: bool,
+    pixel: [u32; 2],
     commands: Sender<Command>,
     frame: Arc<Mutex<Option<Arc<Frame>>>>,
     gallery: Arc<Gallery>,
@@ -69,13 +72,14 @@ impl Engine {
             batches: Batches::new(StrategySet::NONE),
             intervals: None,
             paused: false,
+            pixel: [0; 2],
             frame: Arc::clone(&frame),
             gallery: Arc::clone(&gallery),
             wake,
         };
         let thread = std::thread::Builder::new().name("render".to_owned()).spawn(move || worker.run(&inbox)).map_err(no_thread)?;
         let (hidden, paused, wish) = (StrategySet::NONE, false, Wish::default());
-        Ok(Self { job, generation: 0, hidden, paused, commands, frame, gallery, surveyor, wish, thread: Some(thread) })
+        Ok(Self { job, generation: 0, hidden, paused, pixel: [0; 2], commands, frame, gallery, surveyor, wish, thread: Some(thread) })
     }
 
     /// Renders something else from now on. On an error the old job goes on. The new film is made by the thread: the caller,
@@ -105,6 +109,14 @@ impl Engine {
     pub fn set_paused(&mut self, paused: bool) {
         self.paused = paused;
         self.send(Command::Pause(paused));
+    }
+
+    /// Which pixel frames tell of, strategy by strategy.
+    pub fn set_pixel(&mut self, pixel: [u32; 2]) {
+        if self.pixel != pixel {
+            self.pixel = pixel;
+            self.send(Command::Pixel(pixel));
+        }
     }
 
     /// Is it stopped?
@@ -181,6 +193,7 @@ struct Worker {
     batches: Batches,
     intervals: Option<Arc<Intervals>>,
     paused: bool,
+    pixel: [u32; 2],
     frame: Arc<Mutex<Option<Arc<Frame>>>>,
     gallery: Arc<Gallery>,
     wake: Arc<dyn Fn() + Send + Sync>,
@@ -199,6 +212,7 @@ impl Worker {
                     Ok(Command::Restart(job, generation)) => restart = Some((*job, generation)),
                     Ok(Command::Hide(hidden)) => self.hidden = *hidden,
                     Ok(Command::Pause(paused)) => self.paused = paused,
+                    Ok(Command::Pixel(pixel)) => self.pixel = pixel,
                     Ok(Command::Look) => {}
                     Ok(Command::Layers(sender)) => asked.push(sender),
                     Err(TryRecvError::Empty) => break,
@@ -269,7 +283,7 @@ impl Worker {
 
     fn publish(&mut self) {
         self.session.collect();
-        let mut frame = make_frame(&self.session, self.generation, self.hidden);
+        let mut frame = make_frame(&self.session, self.generation, self.hidden, self.pixel);
         frame.intervals = self.intervals.clone();
         let frame = Arc::new(frame);
         let pictures = self.gallery.wanted(true).into_iter().filter_map(|source| make_picture(&self.session, source, &frame));

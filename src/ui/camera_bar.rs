@@ -7,7 +7,7 @@ use super::keys::{self, Action};
 use super::live::Live;
 use super::state::State;
 use super::text::Text;
-use super::widgets::keep_together;
+use super::widgets::{finite, keep_together};
 use crate::scene::sphere::MAX_LENS;
 use crate::scene::{Lens, Scene};
 use eframe::egui::{Button, ComboBox, DragValue, Response, Slider, SliderClamping, Ui};
@@ -62,7 +62,7 @@ fn aperture(ui: &mut Ui, state: &State, scene: &Scene, mut radius: f32) -> f32 {
     let slider = Slider::new(&mut radius, 0.0..=wide).logarithmic(true).smallest_positive(f64::from(narrow));
     ui.add(slider.show_value(false).clamping(SliderClamping::Never)).labelled_by(label.id).on_hover_text(help);
     let speed = 0.01 * radius.max(10.0 * narrow);
-    let field = DragValue::new(&mut radius).range(0.0..=MAX_LENS * scene.sphere.radius.max(1e-3)).speed(speed);
+    let field = DragValue::new(&mut radius).custom_parser(finite).range(0.0..=MAX_LENS * scene.sphere.radius.max(1e-3)).speed(speed);
     let written = move |value: f64, _| if value == 0.0 { pinhole.to_owned() } else { format!("{} m", format::short(value)) };
     let read = move |text: &str| if text.trim() == pinhole { Some(0.0) } else { metres(text) };
     let field = field.custom_formatter(written).custom_parser(read).update_while_editing(false);
@@ -84,7 +84,8 @@ fn focus(ui: &mut Ui, state: &State, scene: &Scene, lens: Lens) -> f32 {
     let slider = Slider::new(&mut distance, near..=f32::INFINITY).logarithmic(true).smallest_positive(f64::from(near));
     let slider = slider.largest_finite(f64::from(far)).show_value(false).clamping(SliderClamping::Never);
     explain(ui.add_enabled(sharp, slider).labelled_by(label.id));
-    let field = DragValue::new(&mut distance).range(1e-3 * near..=f32::INFINITY).speed(0.01 * lens.focus_distance.min(far));
+    let field =
+        DragValue::new(&mut distance).custom_parser(finite).range(1e-3 * near..=f32::INFINITY).speed(0.01 * lens.focus_distance.min(far));
     let written = |value: f64, _| if value.is_infinite() { "∞ m".to_owned() } else { format!("{} m", format::short(value)) };
     let field = field.custom_formatter(written).custom_parser(metres).update_while_editing(false);
     explain(ui.add_enabled(sharp, field).labelled_by(label.id));

@@ -126,6 +126,7 @@ impl Live {
         let restarted = self.sync_job(state);
         let checked = self.checks.sync(state, self.engine.as_ref(), &self.wake);
         if let Some(engine) = &mut self.engine {
+            engine.set_pixel(state.selection.pixel);
             if engine.hidden() != state.hidden {
                 engine.set_hidden(state.hidden);
             }

@@ -39,6 +39,8 @@ pub enum Gain {
 pub enum Tab {
     /// One row per strategy.
     Strategies,
+    /// What each strategy adds to the pixel.
+    Pixel,
     /// The vertices of a path.
     Path,
     /// The selected path under every strategy that has its length.

@@ -2,7 +2,7 @@
 
 use super::state::State;
 use super::text::{LooksText, Text, Words};
-use super::widgets::labelled;
+use super::widgets::{finite, labelled};
 use crate::engine::Backend;
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{DragValue, PopupCloseBehavior, Ui};
@@ -49,7 +49,7 @@ pub fn show(ui: &mut Ui, state: &mut State) {
         let lang = state.prefs.lang;
         ui.horizontal(|ui| {
             labelled(ui, Text::Seed.in_language(lang), Text::HelpSeed.in_language(lang), |ui| {
-                ui.add(DragValue::new(&mut state.settings.seed).speed(0.1))
+                ui.add(DragValue::new(&mut state.settings.seed).custom_parser(finite).speed(0.1))
             });
         });
         ui.checkbox(&mut state.settings.roulette, Text::Roulette.in_language(lang)).on_hover_text(Text::HelpRoulette.in_language(lang));

@@ -6,7 +6,7 @@ use super::features;
 use super::live::Live;
 use super::state::{ChosenEnvironment, Opening, State};
 use super::text::{EditText, Text};
-use super::widgets::labelled;
+use super::widgets::{finite, labelled};
 use crate::scene::environment::EnvironmentSource;
 use crate::scene::{Scene, builtin};
 use eframe::egui::{ComboBox, DragValue, Key, Label, PopupCloseBehavior, RichText, Role, TextEdit, Ui, WidgetInfo};
@@ -134,7 +134,13 @@ fn environment(ui: &mut Ui, state: &mut State, live: &Live) {
     ui.add(Label::new(name(&source)).truncate()).on_hover_text(state.say(Text::HelpEnvironment));
     let rotated = ui.horizontal(|ui| {
         let mut angle = state.turning.unwrap_or(rotation);
-        let field = DragValue::new(&mut angle).range(-360.0..=360.0).speed(0.5).max_decimals(1).suffix("°").update_while_editing(false);
+        let field = DragValue::new(&mut angle)
+            .custom_parser(finite)
+            .range(-360.0..=360.0)
+            .speed(0.5)
+            .max_decimals(1)
+            .suffix("°")
+            .update_while_editing(false);
         let field = labelled(ui, state.say(Text::EnvironmentTurn), state.say(Text::HelpEnvironmentTurn), |ui| ui.add(field));
         state.turning = field.dragged().then_some(angle);
         let remove = ui.button(state.say(Text::EnvironmentRemove)).on_hover_text(state.say(Text::HelpEnvironmentRemove));

@@ -37,6 +37,9 @@ pub fn selected_ground(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { Color32::from_rgb(0x46, 0x2f, 0x3d) } else { Color32::from_rgb(0xf6, 0xdf, 0xec) }
 }
 
+/// The layout needs as much, points.
+const LEAST_ROOM: [f32; 2] = [800.0, 560.0];
+
 /// Gives the context both themes; done once.
 pub fn install(ctx: &egui::Context) {
     ctx.all_styles_mut(type_and_spacing);
@@ -62,8 +65,12 @@ pub fn choose(ctx: &egui::Context, prefs: &Preferences) {
             style.scroll_animation = if prefs.reduced_motion { egui::style::ScrollAnimation::none() } else { Default::default() };
         });
     }
-    if (ctx.zoom_factor() - prefs.scale).abs() > 1e-3 {
-        ctx.set_zoom_factor(prefs.scale);
+    // As large as was chosen, and as the smallest layout still has room in the window.
+    let window = ctx.content_rect().size() * ctx.zoom_factor();
+    let room = (window.x / LEAST_ROOM[0]).min(window.y / LEAST_ROOM[1]).max(0.5);
+    let scale = if room.is_finite() { prefs.scale.min(room.max(1.0)) } else { prefs.scale };
+    if (ctx.zoom_factor() - scale).abs() > 1e-2 {
+        ctx.set_zoom_factor(scale);
     }
 }
 

@@ -5,7 +5,7 @@ use super::keys::{self, Action};
 use super::live::Live;
 use super::state::State;
 use super::text::{Lang, Text};
-use super::widgets::labelled;
+use super::widgets::{finite, labelled};
 use super::{looks_menu, render_menu, scene_menu};
 use crate::bdpt::{HeuristicKind, Strategy, StrategySet};
 use eframe::egui::{Align, ComboBox, DragValue, Layout, Ui, UiBuilder};
@@ -118,11 +118,13 @@ fn heuristic(ui: &mut Ui, state: &mut State) {
     match kind {
         HeuristicKind::Power => {
             labelled(ui, "β", hint(Text::HelpBeta), |ui| {
-                ui.add(DragValue::new(&mut h.beta).range(0.0..=16.0).speed(0.02).max_decimals(2))
+                ui.add(DragValue::new(&mut h.beta).custom_parser(finite).range(0.0..=16.0).speed(0.02).max_decimals(2))
             });
         }
         HeuristicKind::Cutoff => {
-            labelled(ui, "A", hint(Text::HelpA), |ui| ui.add(DragValue::new(&mut h.cutoff).range(0.0..=1.0).speed(0.005).max_decimals(3)));
+            labelled(ui, "A", hint(Text::HelpA), |ui| {
+                ui.add(DragValue::new(&mut h.cutoff).custom_parser(finite).range(0.0..=1.0).speed(0.005).max_decimals(3))
+            });
         }
         _ => {}
     }
@@ -131,5 +133,7 @@ fn heuristic(ui: &mut Ui, state: &mut State) {
 fn numbers(ui: &mut Ui, state: &mut State) {
     let lang = state.prefs.lang;
     let settings = &mut state.settings;
-    labelled(ui, "K", Text::HelpK.in_language(lang), |ui| ui.add(DragValue::new(&mut settings.max_edges).range(1..=64).speed(0.05)));
+    labelled(ui, "K", Text::HelpK.in_language(lang), |ui| {
+        ui.add(DragValue::new(&mut settings.max_edges).custom_parser(finite).range(1..=64).speed(0.05))
+    });
 }

@@ -60,6 +60,12 @@ pub fn full_name(strategy: Strategy, lang: Lang) -> String {
     format!("{} {}", role_name(strategy, lang), pair(strategy))
 }
 
+/// A number typed into a field: what is none leaves the field as it was. (egui would take "nan" for the largest.)
+pub fn finite(text: &str) -> Option<f64> {
+    let text: String = text.chars().filter(|c| !c.is_whitespace()).map(|c| if c == '−' { '-' } else { c }).collect();
+    text.trim_end_matches(|c: char| !c.is_ascii_digit() && c != '.').parse().ok().filter(|value: &f64| value.is_finite())
+}
+
 /// A horizontal bar filled to `fraction`.
 pub fn bar(painter: &Painter, visuals: &egui::Visuals, rect: Rect, fraction: f32, fill: Color32) {
     let round = CornerRadius::same(2);

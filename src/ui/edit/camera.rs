@@ -9,6 +9,7 @@ use crate::ui::camera_bar;
 use crate::ui::live::Live;
 use crate::ui::state::State;
 use crate::ui::text::{EditText, fill};
+use crate::ui::widgets::finite;
 use eframe::egui::{Button, RichText, Role, TextEdit, Ui, WidgetInfo};
 use serde::{Deserialize, Serialize};
 
@@ -95,7 +96,13 @@ fn aim(ui: &mut Ui, (spoken, help): (&str, &str), pose: Pose) -> Pose {
     let old = [x.atan2(-z).to_degrees(), y.atan2(x.hypot(z)).to_degrees()];
     let mut angles = old;
     for (angle, (letter, range)) in angles.iter_mut().zip([("↔", -360.0..=360.0), ("↕", -88.0..=88.0)]) {
-        let field = eframe::egui::DragValue::new(angle).range(range).speed(0.3).max_decimals(1).suffix("°").prefix(format!("{letter} "));
+        let field = eframe::egui::DragValue::new(angle)
+            .custom_parser(finite)
+            .range(range)
+            .speed(0.3)
+            .max_decimals(1)
+            .suffix("°")
+            .prefix(format!("{letter} "));
         let field = ui.add(field.update_while_editing(false));
         rows::speak(&field, &format!("{spoken} {letter}"));
         field.on_hover_text(help);

@@ -4,6 +4,7 @@
 use crate::ui::format;
 use crate::ui::text::{EditText, Lang, fill};
 use crate::ui::theme;
+use crate::ui::widgets::finite;
 use eframe::egui::{CollapsingHeader, DragValue, Grid, Response, RichText, Role, Slider, SliderClamping, Ui, WidgetInfo, vec2};
 use std::ops::RangeInclusive;
 
@@ -110,7 +111,9 @@ pub fn color_row(ui: &mut Ui, named: Named, slot: &mut Option<[f32; 3]>, own: [f
             value = picked;
         }
         for (channel, letter) in value.iter_mut().zip(["R", "G", "B"]) {
-            let field = ui.add(DragValue::new(channel).range(0.0..=1.0).speed(0.005).max_decimals(3).update_while_editing(false));
+            let field = ui.add(
+                DragValue::new(channel).custom_parser(finite).range(0.0..=1.0).speed(0.005).max_decimals(3).update_while_editing(false),
+            );
             speak(&field, &format!("{spoken} {letter}"));
             field.on_hover_text(help);
         }
@@ -123,7 +126,7 @@ pub fn color_row(ui: &mut Ui, named: Named, slot: &mut Option<[f32; 3]>, own: [f
 /// Three coordinates of one kind.
 pub fn vector(ui: &mut Ui, (spoken, help): (&str, &str), value: &mut [f64; 3], speed: f64, range: RangeInclusive<f64>) {
     for (coordinate, letter) in value.iter_mut().zip(["x", "y", "z"]) {
-        let field = DragValue::new(coordinate).range(range.clone()).speed(speed).update_while_editing(false);
+        let field = DragValue::new(coordinate).custom_parser(finite).range(range.clone()).speed(speed).update_while_editing(false);
         let field = ui.add(field.custom_formatter(|value, _| format::short(value)).prefix(format!("{letter} ")));
         speak(&field, &format!("{spoken} {letter}"));
         field.on_hover_text(help);
@@ -139,7 +142,7 @@ pub fn number(ui: &mut Ui, (spoken, help): (&str, &str), value: &mut f32, scale:
     speak(&slider, spoken);
     slider.on_hover_text(help);
     let speed = if smallest.is_some() { 0.01 * f64::from(value.abs().max(smallest.unwrap_or(0.0))) } else { 0.004 * f64::from(high - low) };
-    let field = DragValue::new(value).range(least..=most).speed(speed).suffix(unit).update_while_editing(false);
+    let field = DragValue::new(value).custom_parser(finite).range(least..=most).speed(speed).suffix(unit).update_while_editing(false);
     let field = ui.add(field.custom_formatter(|value, _| format::short(value)));
     speak(&field, spoken);
     field.on_hover_text(help);

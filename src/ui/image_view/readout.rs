@@ -6,7 +6,7 @@ use super::super::live::Live;
 use super::super::state::State;
 use super::super::study;
 use super::super::text::{Text, ViewText, fill};
-use super::super::widgets::{full_name, keep_together, labelled};
+use super::super::widgets::{finite, full_name, keep_together, labelled};
 use super::Replayed;
 use crate::bdpt::PathRecord;
 use crate::film::picture::pixel_of;
@@ -30,8 +30,8 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, replayed: &Replayed) {
         keep_together(ui, 150.0);
         ui.label(state.say(Text::Pixel));
     }
-    labelled(ui, "x", &hint, |ui| ui.add(DragValue::new(&mut x).range(0..=width.saturating_sub(1)).speed(0.2)));
-    labelled(ui, "y", &hint, |ui| ui.add(DragValue::new(&mut y).range(0..=height.saturating_sub(1)).speed(0.2)));
+    labelled(ui, "x", &hint, |ui| ui.add(DragValue::new(&mut x).custom_parser(finite).range(0..=width.saturating_sub(1)).speed(0.2)));
+    labelled(ui, "y", &hint, |ui| ui.add(DragValue::new(&mut y).custom_parser(finite).range(0..=height.saturating_sub(1)).speed(0.2)));
     state.select_pixel(i64::from(x), i64::from(y));
     if small && ui.available_height() < LOW {
         return brief(ui, state, live, replayed);

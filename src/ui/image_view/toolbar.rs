@@ -6,7 +6,7 @@ use super::super::live::Live;
 use super::super::state::{Maximised, Placement, State};
 use super::super::study::mode_texts;
 use super::super::text::{Text, ViewText};
-use super::super::widgets::{keep_together, labelled};
+use super::super::widgets::{finite, keep_together, labelled};
 use crate::engine::Mode;
 use crate::film::tonemap::{ToneMap, fitting_exposure};
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
@@ -146,7 +146,7 @@ fn exposure(ui: &mut Ui, state: &mut State) {
     let hint = keys::hint(state, Text::HelpExposure, Action::Exposure);
     let exposure = state.say(Text::Exposure);
     labelled(ui, exposure, &hint, |ui| {
-        ui.add(DragValue::new(&mut state.exposure).range(-20.0..=20.0).speed(0.05).fixed_decimals(1).suffix(" EV"))
+        ui.add(DragValue::new(&mut state.exposure).custom_parser(finite).range(-20.0..=20.0).speed(0.05).fixed_decimals(1).suffix(" EV"))
     });
 }
 
@@ -160,7 +160,9 @@ fn auto(ui: &mut Ui, state: &mut State, live: &Live) {
 fn offset(ui: &mut Ui, state: &mut State) {
     let hint = keys::hint(state, ViewText::HelpOffset, Action::Offset);
     let offset = state.say(ViewText::Offset);
-    labelled(ui, offset, &hint, |ui| ui.add(DragValue::new(&mut state.view.offset).range(-10.0..=10.0).speed(0.01).max_decimals(2)));
+    labelled(ui, offset, &hint, |ui| {
+        ui.add(DragValue::new(&mut state.view.offset).custom_parser(finite).range(-10.0..=10.0).speed(0.01).max_decimals(2))
+    });
 }
 
 fn tone(ui: &mut Ui, state: &mut State) {

@@ -3,6 +3,7 @@
 mod card;
 mod path;
 mod pick;
+mod pixel;
 mod search;
 mod splits;
 mod strategies;
@@ -18,8 +19,8 @@ use super::cite::cite;
 use super::keys::{self, Action};
 use super::live::Live;
 use super::state::{State, Tab};
-use super::text::{Text, absence_text, fill, reason_text};
-use super::widgets::{full_name, labelled};
+use super::text::{InspectText, Text, absence_text, fill, reason_text};
+use super::widgets::{finite, full_name, labelled};
 use super::{checks, edit, format};
 use crate::bdpt::record::StrategyRecord;
 use crate::bdpt::{Existence, Heuristic, PathRecord, Strategy};
@@ -55,6 +56,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
 fn page(ui: &mut Ui, state: &mut State, live: &Live) {
     match state.prefs.tab {
         Tab::Scene => return edit::show(ui, state, live),
+        Tab::Pixel => return pixel::show(ui, state, live),
         Tab::Checks => return checks::show(ui, state, live),
         _ => {}
     }
@@ -73,15 +75,16 @@ fn page(ui: &mut Ui, state: &mut State, live: &Live) {
 
 fn tabs(ui: &mut Ui, state: &mut State) {
     ui.horizontal_wrapped(|ui| {
-        for (tab, text, help) in [
-            (Tab::Strategies, Text::TabStrategies, Text::HelpTabStrategies),
-            (Tab::Path, Text::TabPath, Text::HelpTabPath),
-            (Tab::Splits, Text::TabSplits, Text::HelpTabSplits),
-            (Tab::Scene, Text::TabScene, Text::HelpTabScene),
-            (Tab::Checks, Text::TabChecks, Text::HelpTabChecks),
+        ui.spacing_mut().item_spacing.x = 4.0;
+        for (tab, name, help) in [
+            (Tab::Strategies, state.say(Text::TabStrategies), state.say(Text::HelpTabStrategies)),
+            (Tab::Pixel, state.say(InspectText::TabPixel), state.say(InspectText::HelpTabPixel)),
+            (Tab::Path, state.say(Text::TabPath), state.say(Text::HelpTabPath)),
+            (Tab::Splits, state.say(Text::TabSplits), state.say(Text::HelpTabSplits)),
+            (Tab::Scene, state.say(Text::TabScene), state.say(Text::HelpTabScene)),
+            (Tab::Checks, state.say(Text::TabChecks), state.say(Text::HelpTabChecks)),
         ] {
-            let label = state.say(text);
-            ui.selectable_value(&mut state.prefs.tab, tab, label).on_hover_text(state.say(help));
+            ui.selectable_value(&mut state.prefs.tab, tab, name).on_hover_text(help);
         }
     });
 }
@@ -101,7 +104,7 @@ fn header(ui: &mut Ui, state: &mut State, live: &Live) {
     ui.horizontal_wrapped(|ui| {
         let hint = keys::hint(state, Text::KeySample, Action::Sample);
         let name = state.say(Text::Sample);
-        labelled(ui, name, &hint, |ui| ui.add(DragValue::new(&mut state.selection.sample).speed(0.1)));
+        labelled(ui, name, &hint, |ui| ui.add(DragValue::new(&mut state.selection.sample).custom_parser(finite).speed(0.1)));
         if ui.add_enabled(state.selection.sample > 0, egui::Button::new(state.say(Text::Previous))).on_hover_text(hint.as_str()).clicked() {
             keys::step_sample(state, true);
         }

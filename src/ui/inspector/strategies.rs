@@ -10,6 +10,8 @@ use crate::ui::{format, pictures, theme};
 use eframe::egui::{self, Color32, CornerRadius, FontId, Painter, Rect, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 const ROW: f32 = 24.0;
+/// Width of "(1,2)" with the gap before it, points.
+const PAIR: f32 = 38.0;
 
 /// Left edges of the columns of a row.
 struct Columns {
@@ -173,7 +175,9 @@ fn paint(ui: &Ui, state: &State, (index, record, why): (usize, &StrategyRecord, 
 }
 
 fn name_column(painter: &Painter, state: &State, strategy: Strategy, column: Rect, (text, weak): (Color32, Color32), hidden: bool) {
-    let taken = cell_text(painter, column, &role_name(strategy, state.prefs.lang), FontId::proportional(13.5), text);
+    // The pair always has its place: it tells apart what has one name.
+    let room = column.with_max_x((column.right() - PAIR).max(column.left()));
+    let taken = cell_text(painter, room, &role_name(strategy, state.prefs.lang), FontId::proportional(13.5), text);
     let rest = column.with_min_x(column.left() + taken + 6.0);
     let taken = cell_text(painter, rest, &pair(strategy), FontId::proportional(12.5), weak);
     if hidden {

@@ -155,7 +155,9 @@ impl Samples {
             *self = Self { source: Some(source), ..Self::default() };
         }
         let last = state.selection.sample;
-        let wanted = last.saturating_sub(filter.count - 1)..=last;
+        // The last ones up to the selected one; the first ones where there are not so many.
+        let first = last.saturating_sub(filter.count - 1);
+        let wanted = first..=first + (filter.count - 1);
         self.kept.retain(|sample, _| wanted.contains(sample));
         let began = Instant::now();
         for sample in wanted.rev() {

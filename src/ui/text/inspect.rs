@@ -1,6 +1,12 @@
 //! The texts of the inspector's pages: the vertex card, the splits, the search for samples.
 
 texts! { InspectText;
+    TabPixel: "Pixel", "像素";
+    HelpTabPixel: "Which strategies made this pixel bright, over all its samples", "此像素的亮度由哪些策略贡献（全部采样）";
+    PixelIntro: "What each strategy adds to this pixel: its mean over {} samples, largest first; share and luminance.", "各策略对此像素的贡献：{} 个采样的均值，从大到小；占比与亮度。";
+    PixelRest: "{} others have brought no light here so far, or are hidden or removed.", "其余 {} 个策略至今没有为此处带来光，或已隐藏、移除。";
+    PixelMean: "mean contribution {}", "平均贡献 {}";
+    PixelNotYet: "The first pass is under way.", "第一遍渲染尚未完成。";
     // Vertex card.
     CopyVertex: "Copy JSON", "复制 JSON";
     HelpCopyVertex: "Copy the selected vertex as it stands in inspect --json", "以 inspect --json 中的形式复制所选顶点";

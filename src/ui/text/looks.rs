@@ -10,7 +10,7 @@ texts! { LooksText;
     Motion: "Reduced motion", "减少动画";
     HelpMotion: "Nothing moves by itself", "界面元素不播放动画";
     Scale: "Size of everything", "界面大小";
-    HelpScale: "Larger for a projector, smaller for more room", "投影时放大，需要空间时缩小";
+    HelpScale: "Larger for a projector, smaller for more room; as far as the window has room for it", "投影时放大，需要空间时缩小；以窗口能容纳为限";
     ResetLayout: "Reset the layout", "重置布局";
     HelpResetLayout: "Panels as at the first start", "恢复面板的初始布局";
 }
