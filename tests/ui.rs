@@ -21,6 +21,8 @@ mod checks;
 mod compare;
 #[path = "ui/edit.rs"]
 mod edit;
+#[path = "ui/edit_again.rs"]
+mod edit_again;
 #[path = "ui/existence.rs"]
 mod existence;
 #[path = "ui/gallery.rs"]
