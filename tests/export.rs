@@ -5,7 +5,7 @@ use bdpt_explorer::bdpt::PathRecord;
 use bdpt_explorer::bdpt::{Reason, Strategy};
 use bdpt_explorer::engine::{self, Job};
 use bdpt_explorer::report::export::{brightest, diagram_svg, record_json, strategies_csv, vertices_csv};
-use bdpt_explorer::scene::{Lens, builtin};
+use bdpt_explorer::scene::{Lens, Pose, SceneEdits, builtin, edit};
 use std::collections::BTreeSet;
 use std::process::Command;
 use std::sync::Arc;
@@ -64,6 +64,31 @@ fn read_csv(text: &str) -> Result<Vec<Vec<String>>, String> {
     }
     let ragged = rows.iter().position(|row: &Vec<String>| row.len() != rows[0].len());
     ragged.map_or(Ok(rows), |line| Err(format!("line {line} has another number of fields than the head")))
+}
+
+#[test]
+fn what_is_saved_of_an_edited_scene_says_so_and_suffices_to_make_it_again() {
+    let file = job("cornell");
+    let plain = engine::record(&file, [20, 40], 0).expect("a record");
+    let name = file.scene.lamps()[0].name.clone();
+    let json = serde_json::json!({ "lamps": { "0": { "name": name, "power": 3.0 } } });
+    let lamps: SceneEdits = serde_json::from_value(json).expect("edits");
+    let of_edits = |edits: &SceneEdits| {
+        let scene = Arc::new(edit::apply(&file.scene, edits).unwrap_or_else(|error| panic!("{error}")));
+        engine::record(&Job { scene, ..file.clone() }, [20, 40], 0).expect("a record")
+    };
+    let record = of_edits(&lamps);
+    assert_ne!(record.strategies, plain.strategies);
+    let [saved, plain_saved] =
+        [&record, &plain].map(|record| -> serde_json::Value { serde_json::from_str(&record_json(record).expect("JSON")).expect("JSON") });
+    let again: SceneEdits = serde_json::from_value(saved["edits"].clone()).expect("edits");
+    assert_eq!((&again, &of_edits(&again)), (&lamps, &record));
+    assert_eq!(plain_saved.get("edits"), None);
+    let [svg, plain] = [&record, &plain].map(|record| diagram_svg(record, None));
+    assert!(svg.contains(">edited scene · film 64×64") && !plain.contains("edited"), "{svg}");
+    let pose = Some(Pose::of(&file.scene, &file.scene.cameras[0]).shifted(0.1, 0.0, 0.0));
+    let moved = engine::record(&Job { pose, ..file.clone() }, [20, 40], 0).expect("a record");
+    assert!(diagram_svg(&moved, None).contains(" (moved) · pinhole"));
 }
 
 #[test]

@@ -23,6 +23,8 @@ mod compare;
 mod edit;
 #[path = "ui/escape.rs"]
 mod escape;
+#[path = "ui/edit_again.rs"]
+mod edit_again;
 #[path = "ui/existence.rs"]
 mod existence;
 #[path = "ui/gallery.rs"]

@@ -10,7 +10,7 @@ use super::reason::Reason;
 use super::settings::Heuristic;
 use super::strategy::Strategy;
 use super::vertex::End;
-use crate::scene::Pose;
+use crate::scene::{Pose, SceneEdits};
 use serde::{Serialize, Serializer};
 
 /// In what a density is measured.
@@ -241,6 +241,9 @@ pub struct PathRecord {
     /// Where the camera was moved to; `None` = it stands where the file has it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pose: Option<Pose>,
+    /// What is other than the scene's file has it; `None` = nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub edits: Option<SceneEdits>,
     /// Pixel, from the top left.
     pub pixel: [u32; 2],
     /// Sample number.

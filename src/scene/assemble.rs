@@ -5,7 +5,7 @@ use super::bvh::Bvh;
 use super::parts::{Bounds, PartCamera};
 use super::sphere::Sphere;
 use super::texture::Textures;
-use super::{Camera, Costs, Lens, Lights, NONE, Parts, Recipe, Scene, SceneError, SceneFeatures, Triangle};
+use super::{Camera, Costs, Lens, Lights, NONE, Parts, Recipe, Scene, SceneEdits, SceneError, SceneFeatures, Triangle};
 use crate::math::DVec3;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -83,6 +83,7 @@ impl Scene {
             scene_names: parts.scene_names,
             scene: parts.scene,
             features: SceneFeatures::default(),
+            edits: SceneEdits::default(),
             costs: Costs { build_seconds, ..Costs::default() },
             lamps: OnceLock::new(),
         };

@@ -233,6 +233,8 @@ pub fn apply(file: &Scene, edits: &SceneEdits) -> Result<Scene, EditError> {
         return Err(EditError(format!("these edits are of version {}; this program knows version {EDITS_VERSION}", edits.version)));
     }
     let mut scene = file.clone();
+    scene.edits = edits.clone();
+    scene.edits.tidy();
     let mut shines = false;
     for (&index, edit) in &edits.materials {
         shines |= materials::apply(file, &mut scene, index, edit)?;

@@ -107,6 +107,8 @@ pub struct Scene {
     pub scene: Option<usize>,
     /// What this scene needs of a renderer.
     pub features: SceneFeatures,
+    /// What a person changed about it; nothing, if it is as its file has it.
+    pub edits: SceneEdits,
     /// What it took to get here.
     pub costs: Costs,
     /// The lamps, once they were asked for.

@@ -48,7 +48,9 @@ struct RecordKey {
 pub struct Live {
     wake: Wake,
     loader: Loader,
+    /// Follows the file of the scene on show, and of the one being loaded.
     reload: Reload,
+    reading: Reload,
     dialog: Dialog,
     engine: Option<Engine>,
     /// The scene to show, and the one the engine accepted last.
@@ -79,6 +81,7 @@ impl Live {
             wake: wake.clone(),
             loader: Loader::new(wake),
             reload: Reload::default(),
+            reading: Reload::default(),
             dialog: Dialog::default(),
             engine: None,
             shown: None,

@@ -7,12 +7,12 @@ use bdpt_explorer::math::DVec3;
 use bdpt_explorer::scene::{Pose, SceneEdits, edit};
 use bdpt_explorer::ui::state::Tab;
 
-fn job(window: &Harness<'static, App>) -> Job {
+pub(super) fn job(window: &Harness<'static, App>) -> Job {
     window.state().live().engine().expect("an engine").job().clone()
 }
 
 /// Waits until the engine renders what the state says.
-fn settle(window: &mut Harness<'static, App>) {
+pub(super) fn settle(window: &mut Harness<'static, App>) {
     until(window, "the edits", |app| {
         let job = app.live().engine().expect("an engine").job();
         let scene = app.live().scene().expect("a scene");
@@ -355,7 +355,7 @@ fn the_camera_has_numbers_and_views_to_come_back_to() {
 }
 
 /// A room whose back wall has this albedo, under a lamp.
-fn file_with(albedo: f64, name: &str) -> Vec<u8> {
+pub(super) fn file_with(albedo: f64, name: &str) -> Vec<u8> {
     let mut scene = glb::Glb::new("a room");
     let wall = scene.material(glb::lambert(name, [albedo; 3]));
     let lamp = scene.material(glb::emitter("lamp", [0.0; 3], [1.0; 3], 5.0));

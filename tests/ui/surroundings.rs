@@ -7,7 +7,7 @@ use bdpt_explorer::ui::state::ChosenEnvironment;
 use std::path::{Path, PathBuf};
 
 /// A small picture of a sky: 4 × 2 texels, Radiance without compression.
-fn sky(folder: &Path) -> PathBuf {
+pub(super) fn sky(folder: &Path) -> PathBuf {
     let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n".to_vec();
     for texel in 0..8u8 {
         bytes.extend([128, 100 + 10 * texel, 200, 128]);

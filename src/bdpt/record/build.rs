@@ -34,6 +34,7 @@ pub fn record(context: &Context, pixel: [u32; 2], sample: u32) -> PathRecord {
         camera: context.view.name.clone(),
         // A view does not know whether it was moved: who made it fills this in.
         pose: None,
+        edits: Some(&scene.edits).filter(|edits| !edits.is_empty()).cloned(),
         pixel,
         sample,
         seed: settings.seed,

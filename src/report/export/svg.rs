@@ -28,7 +28,10 @@ pub fn diagram_svg(record: &PathRecord, chosen: Option<Strategy>) -> String {
     drawing.text([MARGIN, 40.0], "h", &title);
     let [width, height] = record.size;
     let lens = if record.lens_radius > 0.0 { format!("lens {} m", record.lens_radius) } else { "pinhole".to_owned() };
-    let made = format!("film {width}×{height} · camera {} · {lens} · K = {} · seed {}", record.camera, record.max_edges, record.seed);
+    let edited = if record.edits.is_some() { "edited scene · " } else { "" };
+    let moved = if record.pose.is_some() { " (moved)" } else { "" };
+    let camera = format!("camera {}{moved}", record.camera);
+    let made = format!("{edited}film {width}×{height} · {camera} · {lens} · K = {} · seed {}", record.max_edges, record.seed);
     drawing.text([MARGIN, 60.0], "w", &made);
     let chosen = record.strategies.iter().find(|x| Some(x.strategy()) == chosen);
     if let Some(strategy) = chosen {

@@ -53,6 +53,12 @@ pub struct Rendered {
     pub source: Source,
     /// The scene.
     pub scene: String,
+    /// Was it other than its file has it?
+    pub edited: bool,
+    /// Did the camera stand elsewhere than its file has it?
+    pub moved: bool,
+    /// The lens that was chosen; `None` = the camera's own.
+    pub lens: Option<crate::scene::Lens>,
     /// The estimator.
     pub settings: crate::bdpt::Settings,
     /// Strategies that were hidden.

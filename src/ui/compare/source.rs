@@ -199,6 +199,9 @@ pub fn rendered(state: &State, live: &Live, source: Source) -> Option<Rendered> 
     Some(Rendered {
         source,
         scene: job.scene.name.clone(),
+        edited: !job.scene.edits.is_empty(),
+        moved: job.pose.is_some(),
+        lens: job.lens,
         settings: job.settings,
         hidden: state.left_out(&live.existence()).0,
         spp: frame.stats.spp,
@@ -212,6 +215,7 @@ fn describe(rendered: &Rendered, shown: Source, lang: Lang) -> String {
     if let (Source::Kept(_), Source::Strategy(strategy, mode)) = (shown, rendered.source) {
         words.push(format!("({},{}) {}", strategy.s, strategy.t, mode_name(mode, lang)));
     }
+    words.extend(changes(rendered, lang));
     words.push(integrator(&rendered.settings.strategies, lang).to_owned());
     words.push(heuristic(&rendered.settings, lang));
     if rendered.hidden > 0 {
@@ -220,6 +224,17 @@ fn describe(rendered: &Rendered, shown: Source, lang: Lang) -> String {
     let (spp, seconds) = (samples(rendered.spp), format::short(rendered.seconds));
     words.push(fill(ViewText::SppAndTime.in_language(lang), &[&spp, &seconds]));
     words.join(" · ")
+}
+
+/// What was other than the scene's file has it: "edited scene", "camera moved", "lens 0.0200 m, focus 3.00 m".
+fn changes(rendered: &Rendered, lang: Lang) -> Vec<String> {
+    let metres = |length: f32| if length.is_finite() { format::short(f64::from(length)) } else { "∞".to_owned() };
+    let words = |said: bool, text: ViewText| said.then(|| text.in_language(lang).to_owned());
+    let lens = rendered.lens.map(|lens| match lens.radius {
+        0.0 => Text::Pinhole.in_language(lang).to_owned(),
+        radius => fill(ViewText::ChosenLens.in_language(lang), &[&metres(radius), &metres(lens.focus_distance)]),
+    });
+    [words(rendered.edited, ViewText::EditedScene), words(rendered.moved, ViewText::CameraMoved), lens].into_iter().flatten().collect()
 }
 
 /// Samples per pixel, whole where they are.
@@ -253,16 +268,32 @@ fn heuristic(settings: &Settings, lang: Lang) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Lens;
 
     #[test]
     fn a_label_says_estimator_samples_and_time() {
-        let mut rendered =
-            Rendered { source: Source::Image, scene: "cornell".into(), settings: Settings::default(), hidden: 0, spp: 64.0, seconds: 3.21 };
+        let mut rendered = Rendered {
+            source: Source::Image,
+            scene: "cornell".into(),
+            edited: false,
+            moved: false,
+            lens: None,
+            settings: Settings::default(),
+            hidden: 0,
+            spp: 64.0,
+            seconds: 3.21,
+        };
         assert_eq!(describe(&rendered, Source::Kept(1), Lang::En), "BDPT · power β = 2 · 64 spp, 3.21 s");
         rendered.settings.strategies = StrategySet::path_tracer();
         rendered.settings.heuristic.kind = HeuristicKind::Balance;
         (rendered.hidden, rendered.spp) = (2, 1.25);
         rendered.source = Source::Strategy(Strategy::new(1, 2), Mode::Raw);
         assert_eq!(describe(&rendered, Source::Kept(1), Lang::En), "(1,2) unweighted C* · PT · balance · 2 hidden · 1.2 spp, 3.21 s");
+        (rendered.edited, rendered.moved, rendered.hidden, rendered.source) = (true, true, 0, Source::Image);
+        rendered.lens = Some(Lens { radius: 0.02, focus_distance: f32::INFINITY });
+        let changed = "edited scene · camera moved · lens 0.0200 m, focus ∞ m · PT · balance · 1.2 spp, 3.21 s";
+        assert_eq!(describe(&rendered, Source::Kept(1), Lang::En), changed);
+        rendered.lens = Some(Lens { radius: 0.0, focus_distance: 1.0 });
+        assert!(describe(&rendered, Source::Kept(1), Lang::Zh).starts_with("场景已更改 · 相机已移动 · 针孔"));
     }
 }

@@ -116,7 +116,9 @@ fn aim(ui: &mut Ui, (spoken, help): (&str, &str), pose: Pose) -> Pose {
 }
 
 fn bookmarks(ui: &mut Ui, state: &mut State, live: &Live, scene: &Scene) {
-    let Some(key) = live.opened().map(|opening| opening.scene.clone()) else { return };
+    // Every scene in a file has its own.
+    let inside = scene.scene.filter(|_| scene.scene_names.len() > 1).map_or(String::new(), |index| format!("#{index}"));
+    let Some(key) = live.opened().map(|opening| format!("{}{inside}", opening.scene)) else { return };
     ui.add_space(4.0);
     ui.label(RichText::new(state.say(EditText::Bookmarks)).strong()).on_hover_text(state.say(EditText::HelpBookmarks));
     let count = state.prefs.bookmarks.get(&key).map_or(0, Vec::len);

@@ -2,7 +2,7 @@
 //! step.
 
 use crate::bdpt::{Settings, StrategySet};
-use crate::scene::{Lens, Pose, SceneEdits};
+use crate::scene::{Lens, Pose, Scene, SceneEdits};
 use crate::ui::state::State;
 use std::time::Duration;
 use web_time::Instant;
@@ -134,6 +134,40 @@ impl History {
         [growing || !self.past.is_empty(), !growing && !self.future.is_empty()]
     }
 
+    /// The scene was read anew, with other parts: of every state stays what `fitted` says it has a place for.
+    pub fn fit(&mut self, scene: &Scene, fitted: impl Fn(&SceneEdits) -> SceneEdits) {
+        self.revise(|state| {
+            state.edits = fitted(&state.edits);
+            if state.camera.0 >= scene.cameras.len() {
+                (state.camera, state.lens) = ((0, None), None);
+            }
+        });
+    }
+
+    /// Edits that the scene refuses were never made: `instead` holds where they were.
+    pub fn replace(&mut self, refused: &SceneEdits, instead: &SceneEdits) {
+        self.revise(|state| {
+            if state.edits == *refused {
+                state.edits = instead.clone();
+            }
+        });
+    }
+
+    /// Changes all states; steps in which nothing differs any more are none.
+    fn revise(&mut self, change: impl Fn(&mut Snapshot)) {
+        let growing = self.growing.iter_mut().map(|step| &mut step.before);
+        self.past.iter_mut().chain(growing).chain(&mut self.present).chain(&mut self.future).for_each(change);
+        self.past.dedup();
+        self.future.dedup();
+        let growing = self.growing.as_ref().map(|step| &step.before);
+        if self.past.last() == growing.or(self.present.as_ref()) {
+            self.past.pop();
+        }
+        if self.future.last() == self.present.as_ref() {
+            self.future.pop();
+        }
+    }
+
     /// Another scene: what was is of no use.
     pub fn clear(&mut self) {
         *self = Self::default();
@@ -260,6 +294,39 @@ mod tests {
             seen[2..],
             [(0, 7, 8, Some(39.0)), (0, 0, 8, Some(39.0)), (0, 0, 7, Some(39.0)), (0, 0, 6, Some(39.0)), (0, 0, 6, None)]
         );
+    }
+
+    #[test]
+    fn what_a_scene_has_no_place_for_is_no_step() {
+        let (mut state, mut time) = (state(), Instant::now());
+        let mut set = |state: &mut State, power: Option<f32>, max_edges: u32| {
+            let lamp = power.map(|power| (0, LampEdit { power: Some(power), ..LampEdit::default() }));
+            state.edit.edits.lamps = lamp.into_iter().collect();
+            state.settings.max_edges = max_edges;
+            time += Duration::from_secs(1);
+            state.edit.history.watch(Snapshot::of(state), false, time);
+        };
+        let places = [(None, 3), (Some(2.0), 3), (Some(4.0), 3), (Some(4.0), 5), (Some(6.0), 5)];
+        places.iter().for_each(|&(power, max_edges)| set(&mut state, power, max_edges));
+        go(&mut state, true);
+        // The refused one is as the one before it.
+        let refused = places[2].0.map(|power| (0, LampEdit { power: Some(power), ..LampEdit::default() }));
+        let [refused, instead] = [refused, None].map(|lamp| SceneEdits { lamps: lamp.into_iter().collect(), ..SceneEdits::default() });
+        let mut struck = state.edit.history.clone();
+        struck.replace(&refused, &instead);
+        let seen: Vec<_> =
+            std::iter::from_fn(|| struck.undo()).map(|x| (x.edits.lamps.get(&0).and_then(|x| x.power), x.settings.max_edges)).collect();
+        assert_eq!(seen, [(None, 3), (Some(2.0), 3), (None, 3)]);
+        // Without any lamp, only the settings are left to undo; one camera is there.
+        let scene = crate::scene::builtin::open("cornell").unwrap();
+        state.edit.edits = SceneEdits::default();
+        state.edit.history.fit(&scene, |_| SceneEdits::default());
+        assert_eq!(state.edit.history.present, Some(Snapshot::of(&state)));
+        assert_eq!(state.edit.history.steps(), [true, false]);
+        go(&mut state, true);
+        assert_eq!((state.settings.max_edges, state.edit.history.steps()), (3, [false, true]));
+        go(&mut state, false);
+        assert_eq!((state.settings.max_edges, state.edit.history.steps()), (5, [true, false]));
     }
 
     #[test]

@@ -1,10 +1,20 @@
 //! The scene files opened last.
 
+use crate::scene::builtin;
 use crate::ui::state::Preferences;
 use std::path::Path;
 
 /// So many are remembered.
 const MOST: usize = 8;
+
+/// A scene's one name: of a file the whole path, however it was given.
+pub fn whole(scene: &str) -> String {
+    let path = Path::new(scene);
+    // A built-in scene is opened even where a file of its name lies about.
+    let file = path.is_file() && builtin::list().iter().all(|own| own.name != scene);
+    let path = if file { std::path::absolute(path).ok() } else { None };
+    path.map_or_else(|| scene.to_owned(), |path| path.display().to_string())
+}
 
 /// Remembers a scene as the one opened last, if it is a file; built-in ones are at hand anyway.
 pub fn remember(preferences: &mut Preferences, scene: &str) {
@@ -12,7 +22,7 @@ pub fn remember(preferences: &mut Preferences, scene: &str) {
     if !path.is_file() {
         return;
     }
-    let path = std::path::absolute(path).map_or_else(|_| scene.to_owned(), |path| path.display().to_string());
+    let path = whole(scene);
     preferences.recent.retain(|other| *other != path);
     preferences.recent.insert(0, path);
     preferences.recent.truncate(MOST);
@@ -26,6 +36,13 @@ pub fn existing(preferences: &Preferences) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_file_has_one_name_and_a_built_in_scene_its_own() {
+        let whole_name = std::path::absolute("Cargo.toml").unwrap().display().to_string();
+        assert_eq!([whole("Cargo.toml"), whole("./Cargo.toml"), whole(&whole_name)], [(); 3].map(|()| whole_name.clone()));
+        assert_eq!([whole("cornell"), whole("no such file.glb")], ["cornell", "no such file.glb"]);
+    }
 
     #[test]
     fn the_last_eight_files_are_remembered_while_they_exist() {

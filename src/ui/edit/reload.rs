@@ -20,8 +20,8 @@ pub struct Reload {
 
 impl Reload {
     /// A scene is about to be read: from this version on, a change counts.
-    pub fn reading(&mut self, name: &str) {
-        *self = Self { name: name.to_owned(), stamp: stamp(name), looked: Some(Instant::now()) };
+    pub fn reading(name: &str) -> Self {
+        Self { name: name.to_owned(), stamp: stamp(name), looked: Some(Instant::now()) }
     }
 
     /// Is this scene a file that can change?

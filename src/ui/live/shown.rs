@@ -1,12 +1,14 @@
 //! The scene on show: loaded, loaded again when its file changes, and with the edits of the person.
 
 use super::super::edit::dialog::Answer;
-use super::super::edit::{recent, reload};
+use super::super::edit::recent;
+use super::super::edit::reload::{self, Reload};
 use super::super::loader::Failure;
 use super::super::state::{Opening, State};
 use super::super::text::{EditText, Text, fill};
 use super::Live;
-use crate::scene::{Scene, SceneEdits, builtin, edit};
+use crate::scene::edit::{self, EnvironmentEdit};
+use crate::scene::{Scene, SceneEdits, builtin};
 use std::sync::Arc;
 
 /// A scene, and what it was made from.
@@ -33,6 +35,7 @@ impl Live {
     /// Takes what was loaded, or says why nothing was.
     pub(super) fn finish_loading(&mut self, state: &mut State) -> bool {
         let Some((opening, result)) = self.loader.take() else { return false };
+        let reading = std::mem::take(&mut self.reading);
         match result {
             Ok(scene) => {
                 // The scene shown instead of one that could not be read is no cure.
@@ -48,22 +51,31 @@ impl Live {
                 }
                 // The same scene in another light, or read again, keeps its camera and what was changed.
                 let same = |old: &Opening| (&old.scene, &old.inside) == (&opening.scene, &opening.inside);
-                if self.opened().is_some_and(same) {
-                    let (edits, lost) = state.edit.edits.fitted(&scene);
+                if let Some(old) = self.opened().filter(|old| same(old)) {
+                    let relit = old.environment != opening.environment;
+                    let fitted = |edits: &SceneEdits| {
+                        let (edits, lost) = edits.fitted(&scene);
+                        // Another light is as it was chosen: what turned the one before does not turn it.
+                        let environment = if relit { EnvironmentEdit::default() } else { edits.environment };
+                        (SceneEdits { environment, ..edits }, lost)
+                    };
+                    let (edits, lost) = fitted(&state.edit.edits);
                     state.edit.edits = edits;
+                    state.edit.history.fit(&scene, |edits| fitted(edits).0);
                     if !lost.is_empty() {
                         state.tell(false, fill(state.say(EditText::EditsLost), &[&lost.join(", ")]));
                     }
                 } else {
                     state.edit.forget();
                     state.choose_camera(0);
+                    // A scene that was never seen is not paused before its first pass.
+                    state.paused = false;
                 }
                 if state.camera >= scene.cameras.len() {
                     state.choose_camera(0);
                 }
                 recent::remember(&mut state.prefs, &opening.scene);
-                // A scene that was never seen is not paused before its first pass.
-                state.paused = false;
+                self.reload = reading;
                 self.shown = Some(Shown::new(Arc::new(scene), opening));
             }
             Err(failure) => {
@@ -73,6 +85,10 @@ impl Live {
                 };
                 // A new version of the file on show: the old picture stays.
                 let reloaded = self.reload.follows(&opening.scene) && self.opened() == Some(&opening);
+                // It is not tried again before it changes; of any other failure the file on show knows nothing.
+                if reloaded && reading.follows(&opening.scene) {
+                    self.reload = reading;
+                }
                 let error = if reloaded { fill(state.say(EditText::ReloadFailed), &[&error]) } else { error };
                 state.retract(self.unreadable.replace(error.clone()));
                 state.tell(true, error);
@@ -89,7 +105,8 @@ impl Live {
 
     /// Starts loading; from the version of the file that is read now, a change to it counts.
     pub(super) fn load(&mut self, opening: Opening) {
-        self.reload.reading(&opening.scene);
+        let opening = Opening { scene: recent::whole(&opening.scene), ..opening };
+        self.reading = Reload::reading(&opening.scene);
         self.loader.start(opening);
     }
 
@@ -123,6 +140,8 @@ impl Live {
                 state.retract(self.refused_edit.take());
             }
             Err(error) => {
+                // Undo must not lead back to what is refused.
+                state.edit.history.replace(&state.edit.edits, &shown.edits);
                 state.edit.edits = shown.edits.clone();
                 state.retract(self.refused_edit.replace(error.0.clone()));
                 state.tell(true, error.0);
