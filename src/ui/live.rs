@@ -346,7 +346,8 @@ impl Live {
 
     fn sync_study(&mut self, state: &State) {
         let Some(engine) = &mut self.engine else { return };
-        engine.set_wish(study::wish(state, self.frame.as_deref()));
+        let wish = study::wish(state, self.frame.as_deref(), engine.paused());
+        engine.set_wish(wish);
         // Until the first look after a restart the old pictures stay.
         let old = self.study.take().filter(|old| old.mode == state.study.mode && old.mode != Mode::Weighted);
         self.study = engine.study().or(old);
