@@ -4,6 +4,7 @@
 mod shown;
 
 use super::checks::Runner;
+use super::compare::Pair;
 use super::edit::dialog::Dialog;
 use super::edit::reload::Reload;
 use super::export::{Saver, Sources};
@@ -139,7 +140,9 @@ impl Live {
         let searching = self.engine.as_ref().is_some_and(|engine| inspector::sync_search(state, engine));
         let new_record = self.sync_record(state);
         let record = self.record(state);
-        let saved = self.saver.sync(state, Sources { engine: self.engine.as_ref(), frame: self.frame.as_ref(), record });
+        let shown = state.export.request.is_some().then(|| Pair::find(state, self));
+        let sources = Sources { engine: self.engine.as_ref(), shown: shown.as_ref(), frame: self.frame.as_ref(), record };
+        let saved = self.saver.sync(state, sources);
         loaded || restarted || checked || new_frame || new_record || searching || saved
     }
 
