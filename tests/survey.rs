@@ -185,6 +185,28 @@ fn outcomes_alone_take_no_room_and_a_weight_of_zero_is_told() {
     assert!(weightless >= 3, "the densest strategy takes all: {weightless}");
 }
 
+#[test]
+fn a_survey_used_again_is_as_good_as_a_new_one() {
+    let before = job([12, 9], 3);
+    let after = Job { settings: Settings { seed: 7, ..before.settings }, ..before.clone() };
+    let mut again = surveyed(&before, 0..2, Some(usize::MAX)).renewed(&plan(&after), after.size).unwrap();
+    assert_eq!((again.passes(), again.has_sums(), again.has_row(0)), (0.0, true, false));
+    let view = after.view();
+    let context = Context::new(&after.scene, &view, &after.settings);
+    (0..9).for_each(|y| again.add_row(&context, y, 0));
+    let new = surveyed(&after, 0..1, Some(usize::MAX));
+    for number in 0..new.strategies().len() {
+        assert_eq!(again.outcomes(number), new.outcomes(number));
+        assert!(pixels(after.size).all(|pixel| again.tally(number, pixel) == new.tally(number, pixel)));
+    }
+    again.drop_sums();
+    assert!(!again.has_sums() && again.outcomes(0).tries == 12 * 9);
+    // One of other strategies, or another size, does not fit.
+    let other = job([12, 9], 4);
+    assert!(surveyed(&before, 0..1, None).renewed(&plan(&other), [12, 9]).is_none());
+    assert!(surveyed(&before, 0..1, None).renewed(&plan(&before), [9, 12]).is_none());
+}
+
 /// Waits for something.
 fn wait<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
     let end = Instant::now() + Duration::from_secs(60);

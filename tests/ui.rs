@@ -21,10 +21,10 @@ mod checks;
 mod compare;
 #[path = "ui/edit.rs"]
 mod edit;
-#[path = "ui/escape.rs"]
-mod escape;
 #[path = "ui/edit_again.rs"]
 mod edit_again;
+#[path = "ui/escape.rs"]
+mod escape;
 #[path = "ui/existence.rs"]
 mod existence;
 #[path = "ui/gallery.rs"]

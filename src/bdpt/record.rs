@@ -10,6 +10,7 @@ use super::reason::Reason;
 use super::settings::Heuristic;
 use super::strategy::Strategy;
 use super::vertex::End;
+use crate::math::Vec3;
 use crate::scene::{Pose, SceneEdits};
 use serde::{Serialize, Serializer};
 
@@ -278,4 +279,14 @@ pub struct PathRecord {
     pub eye_end: End,
     /// One entry per strategy, in the order of `Strategy::index`.
     pub strategies: Vec<StrategyRecord>,
+}
+
+impl PathRecord {
+    /// What the sample adds to its own pixel by the strategies that count: those that stay there, and those whose contribution
+    /// happens to land there.
+    pub fn on_its_pixel(&self, counts: impl Fn(Strategy) -> bool) -> Vec3 {
+        let here = |raster: [f32; 2]| raster.map(|v| v.floor() as i64) == self.pixel.map(i64::from);
+        let lands = |x: &&StrategyRecord| x.feasible && (x.strategy().stays_in_pixel() || x.raster.is_some_and(here));
+        self.strategies.iter().filter(lands).filter(|x| counts(x.strategy())).map(|x| Vec3::from(x.contribution)).sum()
+    }
 }

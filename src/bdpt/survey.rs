@@ -202,6 +202,25 @@ impl Survey {
         }
     }
 
+    /// The same before its first sample, if the plan's strategies and the size are still the same: sums may be large, and need not
+    /// be asked of the system again.
+    pub fn renewed(mut self, plan: &Plan, size: [u32; 2]) -> Option<Self> {
+        let same = self.size == size && self.walks == [plan.light_vertices(), plan.eye_vertices()];
+        if !same || !plan.strategies().eq(self.strategies.iter().copied()) {
+            return None;
+        }
+        self.outcomes.fill(Outcomes::default());
+        self.tallies.fill(Tally::default());
+        self.row_samples.fill(0);
+        self.rows_done = 0;
+        Some(self)
+    }
+
+    /// From now on, only outcomes are counted.
+    pub fn drop_sums(&mut self) {
+        self.tallies = Vec::new();
+    }
+
     /// Adds sample `pass` of every pixel of a row. The context must be that of the plan.
     pub fn add_row(&mut self, context: &Context, y: u32, pass: u32) {
         for x in 0..self.size[0] {

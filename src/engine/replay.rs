@@ -40,7 +40,8 @@ pub struct Comparison {
     pub gpu: Vec3,
     /// The same on the CPU.
     pub cpu: Vec3,
-    /// Largest difference of a channel, as a part of the contribution.
+    /// Largest difference of a channel, as a part of the contribution; of one below a hundredth of the sample's largest, as a
+    /// part of that hundredth.
     pub error: f32,
 }
 
@@ -60,7 +61,8 @@ impl Comparison {
             }
         }
         let largest = gpu.values().chain(cpu.values().map(|(_, value)| value)).map(|v| v.max_element()).fold(0.0, f32::max);
-        let floor = (NEGLIGIBLE * largest).max(f32::MIN_POSITIVE);
+        // Divided by this, what is negligible stays within the tolerance, even if one side misses it altogether.
+        let floor = (NEGLIGIBLE / TOLERANCE * largest).max(f32::MIN_POSITIVE);
         let compare = |(index, (strategy, cpu)): (&usize, &(Strategy, Vec3))| {
             let gpu = gpu.get(index).copied().unwrap_or(Vec3::ZERO);
             let error = (gpu - *cpu).abs().max_element() / gpu.max(*cpu).max_element().max(floor);
@@ -74,10 +76,13 @@ impl Comparison {
 /// What is known about a sample.
 pub type Answer = Result<Comparison, String>;
 
+/// A sample of a job; `None`: none for now.
+type Question = Option<(Which, Job)>;
+
 /// Compares samples on a thread of its own, one at a time: what is asked for last is what counts.
 pub struct Replayer {
     asked: Option<Which>,
-    questions: Sender<(Which, Job)>,
+    questions: Sender<Question>,
     answer: Arc<Mutex<Option<(Which, Answer)>>>,
 }
 
@@ -90,7 +95,11 @@ impl Replayer {
         // Without a thread no question is ever answered.
         drop(std::thread::Builder::new().name("replay".to_owned()).spawn(move || {
             let mut prober = Prober::default();
-            while let Some((which, job)) = last(&inbox) {
+            while let Some(question) = last(&inbox) {
+                let Some((which, job)) = question else {
+                    prober.probe = None;
+                    continue;
+                };
                 let answer = prober.compare(which, &job);
                 *found.lock().unwrap_or_else(PoisonError::into_inner) = Some((which, answer));
                 wake();
@@ -101,8 +110,16 @@ impl Replayer {
 
     /// Asks about a sample of a job, once.
     pub fn ask(&mut self, which: Which, job: &Job) {
-        if self.asked != Some(which) && self.questions.send((which, job.clone())).is_ok() {
+        if self.asked != Some(which) && self.questions.send(Some((which, job.clone()))).is_ok() {
             self.asked = Some(which);
+        }
+    }
+
+    /// Nothing is asked for now: what is kept on the device for the next question goes.
+    pub fn rest(&mut self) {
+        if self.asked.take().is_some() {
+            // Without a thread there is nothing to let go.
+            drop(self.questions.send(None));
         }
     }
 
@@ -114,7 +131,7 @@ impl Replayer {
 }
 
 /// Waits for a question; of several only the last one counts.
-fn last(inbox: &Receiver<(Which, Job)>) -> Option<(Which, Job)> {
+fn last(inbox: &Receiver<Question>) -> Option<Question> {
     let first = inbox.recv().ok()?;
     Some(inbox.try_iter().last().unwrap_or(first))
 }
@@ -129,6 +146,8 @@ impl Prober {
     fn compare(&mut self, which: Which, job: &Job) -> Answer {
         let here = |(generation, probe): &(u64, Probe)| *generation == which.generation && probe.gpu().check().is_ok();
         if !self.probe.as_ref().is_some_and(here) {
+            // Two scenes at once may be more than the device holds.
+            self.probe = None;
             self.probe = Some((which.generation, open(job)?));
         }
         let Some((_, probe)) = &self.probe else { return Err("there is no device".to_owned()) };
@@ -159,6 +178,25 @@ mod tests {
     use crate::scene::builtin;
 
     #[test]
+    fn what_was_said_last_counts_and_rest_is_said_once() {
+        let job = Job::new(Arc::new(builtin::open("cornell").unwrap()));
+        let (questions, inbox) = channel();
+        let mut replayer = Replayer { asked: None, questions, answer: Arc::default() };
+        let which = |sample| Which { generation: 0, pixel: [8, 8], sample };
+        replayer.rest();
+        assert!(inbox.try_recv().is_err(), "it rests already");
+        for sample in [1, 1, 2] {
+            replayer.ask(which(sample), &job);
+        }
+        assert_eq!(last(&inbox).unwrap().map(|(which, _)| which), Some(which(2)));
+        replayer.rest();
+        replayer.rest();
+        assert!(inbox.try_recv().unwrap().is_none() && inbox.try_recv().is_err());
+        replayer.ask(which(2), &job);
+        assert_eq!(last(&inbox).unwrap().map(|(which, _)| which), Some(which(2)), "asked again after a rest");
+    }
+
+    #[test]
     fn only_what_differs_by_more_than_rounding_has_diverged() {
         let job = Job { size: [16, 16], ..Job::new(Arc::new(builtin::open("cornell").unwrap())) };
         let lit = |n: u32| record(&job, [8, 12], n).unwrap();
@@ -175,5 +213,13 @@ mod tests {
         assert!(twice.diverged() && twice.strategy.index() == index && twice.gpu == value * 2.0 && twice.cpu == value);
         assert!(changed(Vec3::ZERO).diverged() && changed(Vec3::NAN).diverged());
         assert!(Comparison::of(&BTreeMap::new(), &own).diverged());
+        // What one side misses is told from a certain size on.
+        let mut missed = own.clone();
+        let other = missed.strategies.iter().position(|x| x.feasible && x.strategy().index() != index).unwrap();
+        device.remove(&missed.strategies[other].strategy().index());
+        for (part, told) in [(0.5, false), (2.0, true)] {
+            missed.strategies[other].contribution = [part * NEGLIGIBLE * value.max_element(); 3];
+            assert_eq!(Comparison::of(&device, &missed).diverged(), told, "{part}");
+        }
     }
 }

@@ -54,7 +54,8 @@ pub struct CellStudy {
     /// Smallest and largest number above 0 in it.
     pub range: Option<[f32; 2]>,
     /// One number for the whole film. Raw: its energy over that of the image (luminance); weight: the mean weight of the samples
-    /// that carry light; count: their share among all tries; variance: its share of the sum of all strategies' variances.
+    /// that carry light; count: their share among all tries; variance: its share of the sum of all strategies' variances,
+    /// from the second pass on.
     pub share: Option<f64>,
 }
 
@@ -169,6 +170,8 @@ impl<'a> Look<'a> {
                     cell.share = cell.share.filter(|_| image > 0.0).map(|mean| mean / image);
                 }
             }
+            // Of a single pass there are variances neither of pixels nor of the film, but of splats: no shares.
+            Mode::Variance if self.survey.passes() < 2.0 => study.cells.iter_mut().for_each(|cell| cell.share = None),
             Mode::Variance => {
                 let all: f64 = study.cells.iter().filter_map(|cell| cell.share).sum();
                 for cell in &mut study.cells {
@@ -219,4 +222,29 @@ fn values(mode: Mode, quotients: impl Iterator<Item = Quotient>) -> Values {
 
 fn f32_of(x: f64) -> f32 {
     (x as f32).min(f32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bdpt::context::Context;
+    use crate::engine::Job;
+    use crate::scene::builtin;
+
+    #[test]
+    fn variances_have_shares_from_the_second_pass_on() {
+        let job = Job { size: [8, 6], ..Job::new(std::sync::Arc::new(builtin::open("cornell").unwrap())) };
+        let (view, mut survey) = (job.view(), Survey::new(&job.plan(), job.size, Some(1 << 20)));
+        let context = Context::new(&job.scene, &view, &job.settings);
+        for pass in 0..2 {
+            // A whole pass, and most of the second.
+            (0..6 - pass).for_each(|y| survey.add_row(&context, y, pass));
+            let study = |mode| Look::at(&survey, job.size, 0).study(mode, None);
+            assert!(study(Mode::Variance).cells.iter().all(|cell| cell.share.is_none()));
+            assert!(study(Mode::Raw).cells.iter().any(|cell| cell.share.is_some()));
+        }
+        survey.add_row(&context, 5, 1);
+        let study = Look::at(&survey, job.size, 0).study(Mode::Variance, None);
+        assert!((study.cells.iter().filter_map(|cell| cell.share).sum::<f64>() - 1.0).abs() < 1e-9);
+    }
 }

@@ -8,7 +8,7 @@ use crate::bdpt::context::Context;
 use crate::bdpt::render::Plan;
 use crate::bdpt::survey::{Survey, pixel_outcomes};
 use crate::scene::View;
-use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -18,6 +18,8 @@ use web_time::Instant;
 const BUDGET: usize = if cfg!(target_arch = "wasm32") { 256 << 20 } else { 1 << 30 };
 /// How long the thread counts before it looks for commands.
 const SLICE: Duration = Duration::from_millis(20);
+/// Sums that nobody has looked at in this time are let go.
+const PATIENCE: Duration = Duration::from_secs(3);
 /// Samples of a pixel whose outcomes are counted.
 pub const PIXEL_SAMPLES: u32 = 256;
 /// Passes that answer a question about a pixel well enough, and all that is surveyed while rendering stands still.
@@ -44,7 +46,8 @@ impl Surveyor {
     /// Starts the thread, which waits until something is wished for.
     pub fn start(job: Job, gallery: Arc<Gallery>, wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
         let ((commands, inbox), shown) = (channel(), Shown::default());
-        let worker = Worker { work: Work::new(job, 0), wish: Wish::default(), gallery, shown: Arc::clone(&shown), wake };
+        let worker =
+            Worker { work: Work::new(job, 0, None), wish: Wish::default(), unseen: None, gallery, shown: Arc::clone(&shown), wake };
         let thread = std::thread::Builder::new().name("survey".to_owned()).spawn(move || worker.run(&inbox))?;
         Ok(Self { commands, shown, thread: Some(thread) })
     }
@@ -98,9 +101,11 @@ struct Work {
 }
 
 impl Work {
-    fn new(job: Job, generation: u64) -> Self {
+    /// `old`: the survey of the job before, to be used again if it fits.
+    fn new(job: Job, generation: u64, old: Option<Survey>) -> Self {
         let (view, plan) = (job.view(), job.plan());
-        Self { job, generation, view, plan, survey: None, next_row: 0, pass: 0, pixel: None }
+        let survey = old.and_then(|old| old.renewed(&plan, job.size));
+        Self { job, generation, view, plan, survey, next_row: 0, pass: 0, pixel: None }
     }
 
     /// Counts for about as long as a slice, to the end of pass number `until` at most.
@@ -154,6 +159,8 @@ fn row(number: u32, height: u32) -> u32 {
 struct Worker {
     work: Work,
     wish: Wish,
+    /// Since when nobody has looked at the sums that are kept.
+    unseen: Option<Instant>,
     gallery: Arc<Gallery>,
     shown: Shown,
     wake: Arc<dyn Fn() + Send + Sync>,
@@ -167,10 +174,9 @@ impl Worker {
             // All commands that have come; with nothing to do it sleeps until one does.
             let mut changed = false;
             loop {
-                let command = if idle && !changed { inbox.recv().map_err(|_| TryRecvError::Disconnected) } else { inbox.try_recv() };
-                match command {
+                match if idle && !changed { self.sleep(inbox) } else { inbox.try_recv() } {
                     Ok(Command::Stop) | Err(TryRecvError::Disconnected) => return,
-                    Ok(Command::Restart(job, generation)) => self.work = Work::new(*job, generation),
+                    Ok(Command::Restart(job, generation)) => self.work = Work::new(*job, generation, self.work.survey.take()),
                     Ok(Command::Wish(wish)) => self.wish = wish,
                     Ok(Command::Look) => {}
                     Err(TryRecvError::Empty) => break,
@@ -179,6 +185,7 @@ impl Worker {
             }
             let pictures = !self.gallery.wanted(false).is_empty();
             let (until, sums) = wanted(self.wish, pictures);
+            self.let_go(sums);
             if until == 0 {
                 idle = true;
                 continue;
@@ -187,13 +194,31 @@ impl Worker {
             let before = (self.work.pass, self.work.next_row);
             self.work.step(until, sums);
             idle = self.work.pass >= until;
-            let done = idle && before != (self.work.pass, self.work.next_row);
-            if changed || done || Instant::now() >= next_look {
+            let more = before != (self.work.pass, self.work.next_row);
+            if changed || (more && (idle || Instant::now() >= next_look)) {
                 let began = Instant::now();
                 self.publish();
                 // A look costs time, too: at most a fifth of it.
                 next_look = Instant::now() + (began.elapsed() * 4).clamp(Duration::from_millis(100), Duration::from_secs(10));
             }
+        }
+    }
+
+    /// Waits for a command, or until sums are to be let go.
+    fn sleep(&self, inbox: &Receiver<Command>) -> Result<Command, TryRecvError> {
+        let Some(since) = self.unseen else { return inbox.recv().map_err(|_| TryRecvError::Disconnected) };
+        inbox.recv_timeout(PATIENCE.saturating_sub(since.elapsed())).map_err(|error| match error {
+            RecvTimeoutError::Timeout => TryRecvError::Empty,
+            RecvTimeoutError::Disconnected => TryRecvError::Disconnected,
+        })
+    }
+
+    /// Lets sums go that nobody has looked at in a while: they may be large.
+    fn let_go(&mut self, seen: bool) {
+        let Some(survey) = self.work.survey.as_mut().filter(|survey| survey.has_sums() && !seen) else { return self.unseen = None };
+        if self.unseen.get_or_insert_with(Instant::now).elapsed() >= PATIENCE {
+            survey.drop_sums();
+            self.unseen = None;
         }
     }
 

@@ -104,7 +104,8 @@ impl App {
 
     fn sync(&mut self, ctx: &egui::Context) {
         let shown = self.live.sync(&mut self.state);
-        if self.desk.sync(&mut self.state, &self.live) || shown {
+        let held = ctx.input(|input| input.pointer.any_down());
+        if self.desk.sync(&mut self.state, &self.live, held) || shown {
             ctx.request_repaint();
         }
     }

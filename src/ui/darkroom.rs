@@ -1,7 +1,7 @@
 //! The image view's pictures as textures: developed on a thread of their own, and only when a picture or the way it is shown has
 //! changed; until a new print is ready the old one stays.
 
-use super::compare::{Content, Pair, Source, Sourced, Value};
+use super::compare::{Content, Display, Pair, Source, Sourced, Value};
 use super::state::State;
 use crate::film::colourmap::{false_colour, signed, viridis};
 use crate::film::difference::{Figures, Metric, figures};
@@ -55,6 +55,19 @@ impl Recipe {
     }
 }
 
+/// What is on show, and how; of a split view, A. `None` where there is no picture.
+pub fn on_show(state: &State, pair: &Pair) -> Option<(Vec<Content>, Recipe)> {
+    let content = |found: &Result<Sourced, _>| found.as_ref().ok().map(|found| found.content.clone());
+    let (a, b) = (content(&pair.a), pair.b.as_ref().and_then(content));
+    let alone = |content: Content| (Recipe::of(state, &content), content);
+    let (recipe, content) = match pair.display {
+        Display::A | Display::Split => alone(a?),
+        Display::B => alone(b?),
+        Display::Difference => return Some((vec![a?, b?], Recipe::Difference(state.compare.metric, state.exposure))),
+    };
+    Some((vec![content], recipe))
+}
+
 /// Which of the view's pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
@@ -83,7 +96,13 @@ struct Order {
 struct Ready {
     place: Place,
     key: Key,
-    image: ColorImage,
+    developed: Developed,
+}
+
+/// A picture in the colours of the screen.
+pub struct Developed {
+    /// Itself.
+    pub image: ColorImage,
     marked: usize,
     figures: Option<Figures>,
 }
@@ -122,8 +141,9 @@ impl Darkroom {
         let (outbox, ready) = channel();
         let ctx = ctx.clone();
         std::thread::spawn(move || {
-            for order in inbox {
-                if outbox.send(develop(order)).is_err() {
+            for Order { place, key, contents } in inbox {
+                let developed = develop(&contents, key.recipe);
+                if outbox.send(Ready { place, key, developed }).is_err() {
                     return;
                 }
                 ctx.request_repaint();
@@ -134,7 +154,8 @@ impl Darkroom {
 
     /// Takes in the prints that are ready.
     pub fn collect(&mut self, ctx: &egui::Context) {
-        for Ready { place, key, image, marked, figures } in self.ready.try_iter() {
+        for Ready { place, key, developed } in self.ready.try_iter() {
+            let Developed { image, marked, figures } = developed;
             let slot = &mut self.slots[place as usize];
             // Enlarged, a picture shows its pixels.
             let options = TextureOptions { magnification: TextureFilter::Nearest, ..TextureOptions::LINEAR };
@@ -184,18 +205,18 @@ impl Darkroom {
     }
 }
 
-fn develop(order: Order) -> Ready {
-    let Order { place, key, contents } = order;
+/// Develops a picture, or the difference of two.
+pub fn develop(contents: &[Content], recipe: Recipe) -> Developed {
     let size = contents.first().map_or([0; 2], Content::size);
     let pictures: Vec<_> = contents.iter().map(Content::pixels).collect();
     let (mut marked, mut compared) = (0, None);
     let mut colour = |value: Value| {
-        key.recipe.colour(value).unwrap_or_else(|| {
+        recipe.colour(value).unwrap_or_else(|| {
             marked += 1;
             MARK
         })
     };
-    let pixels = match (&pictures[..], key.recipe) {
+    let pixels = match (&pictures[..], recipe) {
         ([a, b], Recipe::Difference(metric, _)) => {
             compared = Some(figures(size, a, b));
             let value = |(a, b): (&Vec3, &Vec3)| if b.is_finite() { Value::Number(metric.of(*a, *b)) } else { Value::Number(f32::NAN) };
@@ -204,7 +225,7 @@ fn develop(order: Order) -> Ready {
         (all, _) => all.first().map_or(Vec::new(), |pixels| pixels.iter().map(|rgb| colour(Value::Colour(*rgb))).collect()),
     };
     let image = ColorImage::new(size.map(|n| n as usize), pixels);
-    Ready { place, key, image, marked, figures: compared }
+    Developed { image, marked, figures: compared }
 }
 
 #[cfg(test)]
@@ -213,10 +234,9 @@ mod tests {
     use crate::film::picture::Picture;
     use std::sync::Arc;
 
-    fn order(pictures: &[Vec<Vec3>], recipe: Recipe) -> Ready {
+    fn order(pictures: &[Vec<Vec3>], recipe: Recipe) -> Developed {
         let content = |pixels: &Vec<Vec3>| Content::Kept(Arc::new(Picture { size: [3, 1], pixels: pixels.clone() }), None);
-        let key = Key { from: Vec::new(), recipe };
-        develop(Order { place: Place::A, key, contents: pictures.iter().map(content).collect() })
+        develop(&pictures.iter().map(content).collect::<Vec<_>>(), recipe)
     }
 
     #[test]

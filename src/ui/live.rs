@@ -4,6 +4,7 @@
 mod shown;
 
 use super::checks::Runner;
+use super::compare::Pair;
 use super::edit::dialog::Dialog;
 use super::edit::reload::Reload;
 use super::export::{Saver, Sources};
@@ -143,7 +144,9 @@ impl Live {
         let searching = self.engine.as_ref().is_some_and(|engine| inspector::sync_search(state, engine));
         let new_record = self.sync_record(state);
         let record = self.record(state);
-        let saved = self.saver.sync(state, Sources { engine: self.engine.as_ref(), frame: self.frame.as_ref(), record });
+        let shown = state.export.request.is_some().then(|| Pair::find(state, self));
+        let sources = Sources { engine: self.engine.as_ref(), shown: shown.as_ref(), frame: self.frame.as_ref(), record };
+        let saved = self.saver.sync(state, sources);
         loaded || restarted || checked || new_frame || new_record || searching || saved
     }
 
@@ -350,7 +353,8 @@ impl Live {
 
     fn sync_study(&mut self, state: &State) {
         let Some(engine) = &mut self.engine else { return };
-        engine.set_wish(study::wish(state, self.frame.as_deref()));
+        let wish = study::wish(state, self.frame.as_deref(), engine.paused());
+        engine.set_wish(wish);
         // Until the first look after a restart the old pictures stay.
         let old = self.study.take().filter(|old| old.mode == state.study.mode && old.mode != Mode::Weighted);
         self.study = engine.study().or(old);

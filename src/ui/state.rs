@@ -226,11 +226,21 @@ impl State {
         text.in_language(self.prefs.lang)
     }
 
-    /// Shows a strategy's picture in the image view.
+    /// Shows a strategy's picture in the image view, and that in front of what would hide it.
     pub fn open_large(&mut self, strategy: Strategy, mode: Mode) {
         self.compare.a = Source::Strategy(strategy, mode);
-        if self.maximised == Maximised::Pyramid {
+        (self.compare.flipped, self.space_in_front) = (false, false);
+        if self.maximised != Maximised::Image {
             self.maximised = Maximised::None;
+        }
+    }
+
+    /// Can the image view be seen?
+    pub fn image_on_show(&self) -> bool {
+        match self.maximised {
+            Maximised::Image => true,
+            Maximised::None => !(self.narrow && self.space_in_front),
+            Maximised::Space | Maximised::Inspector | Maximised::Pyramid => false,
         }
     }
 
@@ -323,6 +333,18 @@ mod tests {
         state.settings.max_edges = 0;
         state.clamp();
         assert_eq!((state.settings.max_edges, state.selection.strategy.edges()), (1, 1));
+    }
+
+    #[test]
+    fn what_is_opened_large_can_be_seen() {
+        let mut state = State::new(Preferences::default(), [64, 64]);
+        for maximised in [Maximised::None, Maximised::Image, Maximised::Space, Maximised::Inspector, Maximised::Pyramid] {
+            (state.maximised, state.narrow, state.space_in_front, state.compare.flipped) = (maximised, true, true, true);
+            assert_eq!(state.image_on_show(), maximised == Maximised::Image);
+            state.open_large(Strategy::new(1, 2), Mode::Raw);
+            assert!(state.image_on_show() && !state.compare.flipped);
+            assert_eq!(state.compare.a, Source::Strategy(Strategy::new(1, 2), Mode::Raw));
+        }
     }
 
     #[test]

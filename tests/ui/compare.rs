@@ -3,6 +3,7 @@
 use super::view::{at, has, hover, number, still, under_pointer, written};
 use super::*;
 use bdpt_explorer::bdpt::StrategySet;
+use bdpt_explorer::engine::Mode;
 use bdpt_explorer::film::difference::{Metric, figures};
 use bdpt_explorer::film::save::{Layer, Window, save_exr};
 use bdpt_explorer::ui::state::{CompareMode, Source};
@@ -225,4 +226,36 @@ fn the_tone_maps_and_compare_controls_have_names_in_both_languages() {
             }
         }
     }
+}
+
+#[test]
+fn a_strategy_in_large_that_becomes_too_long_says_so() {
+    let mut window = cornell();
+    window.state_mut().state_mut().open_large(Strategy::new(3, 4), Mode::Weighted);
+    until(&mut window, "its picture", |app| {
+        let source = engine::Source::Strategy(Strategy::new(3, 4), Mode::Weighted);
+        app.live().engine().is_some_and(|engine| engine.picture(source).is_some())
+    });
+    let sentence = ViewText::NotThere.in_language(Lang::En);
+    window.run_steps(2);
+    assert!(window.query_by_label(sentence).is_none());
+    window.state_mut().state_mut().settings.max_edges = 3;
+    window.run_steps(3);
+    window.get_by_label(sentence);
+}
+
+#[test]
+fn a_picture_counted_beside_the_renderer_has_its_own_samples_and_no_time() {
+    let mut window = cornell();
+    window.state_mut().state_mut().open_large(Strategy::new(1, 2), Mode::Count);
+    let source = engine::Source::Strategy(Strategy::new(1, 2), Mode::Count);
+    window.state_mut().state_mut().paused = true;
+    // Standing still, eight passes are counted.
+    until(&mut window, "the count", |app| app.live().engine().and_then(|x| x.picture(source)).is_some_and(|x| x.spp >= 8.0));
+    window.run_steps(3);
+    assert!(has(&window, "sample count n · BDPT · power β = 2 · 8 spp") && !has(&window, "8 spp, "));
+    // While the picture on show is another job's, nothing is said of this one's.
+    window.state_mut().state_mut().restart = true;
+    window.step();
+    assert!(!has(&window, "· 8 spp"));
 }

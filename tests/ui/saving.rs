@@ -1,9 +1,10 @@
 //! The window's "Save" menu: what is written is read back and held against what is shown.
 
 use super::*;
-use bdpt_explorer::film::tonemap::{ToneMap, to_srgb8};
+use bdpt_explorer::engine::{Mode, Values};
+use bdpt_explorer::film::tonemap::ToneMap;
 use bdpt_explorer::report::export::{diagram_svg, record_json, strategies_csv, vertices_csv};
-use bdpt_explorer::ui::state::What;
+use bdpt_explorer::ui::state::{CompareMode, Source, What};
 use exr::prelude::{ReadChannels, ReadLayers};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -48,7 +49,7 @@ fn everything_that_can_be_saved_is_what_is_shown() {
     let at = |name: &str| -> PathBuf { folder.path().join(name) };
     let mut window = still();
     let state = window.state_mut().state_mut();
-    (state.exposure, state.tonemap) = (1.0, ToneMap::Aces);
+    (state.exposure, state.view.offset, state.tonemap) = (1.0, 0.05, ToneMap::Aces);
     window.run_steps(2);
     for (what, name) in [
         (What::Seen, "a.png"),
@@ -65,7 +66,8 @@ fn everything_that_can_be_saved_is_what_is_shown() {
     let frame = window.state().live().frame().expect("a frame").clone();
     let png = image::open(at("a.png")).expect("a PNG").to_rgb8();
     assert_eq!((png.width(), png.height()), (SIZE[0], SIZE[1]));
-    let shown: Vec<u8> = frame.image.iter().flat_map(|pixel| to_srgb8(*pixel, 1.0, ToneMap::Aces)).collect();
+    let look = window.state().state().look();
+    let shown: Vec<u8> = frame.image.iter().flat_map(|pixel| look.rgb8(*pixel)).collect();
     assert_eq!(png.into_raw(), shown);
     let radiance = channels(&at("a.exr"));
     for (i, channel) in ["R", "G", "B"].into_iter().enumerate() {
@@ -91,6 +93,38 @@ fn everything_that_can_be_saved_is_what_is_shown() {
     assert_eq!(read("a.svg"), diagram_svg(&record, Some(window.state().state().selection.strategy)));
     assert_eq!((read("s.csv"), read("v.csv")), (strategies_csv(&record), vertices_csv(&record)));
     assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 7, "nothing else is left there");
+}
+
+#[test]
+fn what_is_saved_as_shown_is_the_picture_in_the_view() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = still();
+    let saved = |window: &mut Harness<'static, App>, name: &str| {
+        let path = folder.path().join(name);
+        save(window, What::Seen, &path);
+        written(window, &path);
+        image::open(path).expect("a PNG").to_rgb8().into_raw()
+    };
+    let image = saved(&mut window, "image.png");
+    // A strategy in large.
+    let source = bdpt_explorer::engine::Source::Strategy(Strategy::new(1, 2), Mode::Weighted);
+    window.state_mut().state_mut().open_large(Strategy::new(1, 2), Mode::Weighted);
+    until(&mut window, "the strategy's picture", |app| app.live().engine().is_some_and(|engine| engine.picture(source).is_some()));
+    let picture = window.state().live().engine().and_then(|engine| engine.picture(source)).expect("a picture");
+    let Values::Colour(values) = &picture.values else { panic!("colours") };
+    let look = window.state().state().look();
+    let strategy = saved(&mut window, "strategy.png");
+    assert_eq!(strategy, values.iter().flat_map(|pixel| look.rgb8(*pixel)).collect::<Vec<u8>>());
+    assert_ne!(strategy, image);
+    // Compared with the image: B, and the difference.
+    let compare = &mut window.state_mut().state_mut().compare;
+    (compare.open, compare.b, compare.flipped) = (true, Some(Source::Image), true);
+    window.run_steps(2);
+    assert_eq!(saved(&mut window, "b.png"), image);
+    window.state_mut().state_mut().compare.mode = CompareMode::Difference;
+    window.run_steps(2);
+    let difference = saved(&mut window, "difference.png");
+    assert!(difference != image && difference != strategy);
 }
 
 #[test]

@@ -6,9 +6,8 @@ use super::super::live::Live;
 use super::super::state::State;
 use super::super::text::{Text, ViewText, fill};
 use super::super::widgets::{full_name, keep_together};
-use super::source::{name, rendered, short_name};
+use super::source::{name, rendered, short_name, takes_part};
 use super::{Mode, Source};
-use crate::bdpt::Strategy;
 use crate::film::difference::{Figures, Metric};
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{Button, ComboBox, Key, Label, PopupCloseBehavior, RichText, Role, TextEdit, Ui, WidgetInfo};
@@ -23,11 +22,6 @@ pub fn metric_text(metric: Metric) -> ViewText {
         Metric::Absolute => ViewText::MetricAbsolute,
         Metric::RelativeSquared => ViewText::MetricRelative,
     }
-}
-
-/// Does a strategy take part in what is rendered?
-pub fn takes_part(state: &State, live: &Live, strategy: Strategy) -> bool {
-    live.existence().absence(strategy).is_none() && state.settings.strategies.contains(strategy)
 }
 
 /// Shows the bar; `figures`: of the difference on show.
@@ -166,7 +160,8 @@ fn equal(ui: &mut Ui, state: &State, live: &Live) {
     let (Some(a), Some(b)) = (of(Some(state.compare.a)), of(state.compare.second())) else { return };
     let near = |a: f64, b: f64, part: f64| (a - b).abs() <= part * a.max(b) && a > 0.0;
     let help = state.say(ViewText::HelpEqual);
-    for (same, text) in [(near(a.spp, b.spp, 0.02), ViewText::EqualSamples), (near(a.seconds, b.seconds, 0.05), ViewText::EqualTime)] {
+    let in_time = a.seconds.zip(b.seconds).is_some_and(|(a, b)| near(a, b, 0.05));
+    for (same, text) in [(near(a.spp, b.spp, 0.02), ViewText::EqualSamples), (in_time, ViewText::EqualTime)] {
         if same {
             ui.label(RichText::new(state.say(text)).small().weak()).on_hover_text(help);
         }

@@ -6,10 +6,10 @@ mod keeper;
 mod pair;
 mod source;
 
-pub use bar::{choose, metric_text, show, takes_part};
+pub use bar::{choose, metric_text, show};
 pub use keeper::Keeper;
 pub use pair::{Pair, Value};
-pub use source::{Content, Missing, Source, Sourced, name, samples, short_name};
+pub use source::{Content, Missing, Source, Sourced, name, samples, short_name, takes_part};
 
 use crate::film::difference::Metric;
 use crate::film::picture::Picture;
@@ -65,8 +65,8 @@ pub struct Rendered {
     pub hidden: usize,
     /// Samples per pixel.
     pub spp: f64,
-    /// Time spent rendering, s.
-    pub seconds: f64,
+    /// Time spent rendering, s; `None` of what was counted beside the renderer.
+    pub seconds: Option<f64>,
 }
 
 /// A picture that stays when the rendering goes on.

@@ -117,6 +117,12 @@ pub enum Missing {
     NotThere,
 }
 
+/// Does a strategy take part in what is rendered?
+pub fn takes_part(state: &State, live: &Live, strategy: Strategy) -> bool {
+    let settings = &state.settings;
+    strategy.edges() <= settings.max_edges && settings.strategies.contains(strategy) && live.existence().absence(strategy).is_none()
+}
+
 /// Finds a picture.
 pub fn find(state: &State, live: &Live, source: Source) -> Result<Sourced, Missing> {
     let found = match source {
@@ -125,7 +131,7 @@ pub fn find(state: &State, live: &Live, source: Source) -> Result<Sourced, Missi
             Sourced { source, stamp: [0, live.frame_number()], content: Content::Frame(Arc::clone(frame)) }
         }
         Source::Strategy(strategy, mode) => {
-            if live.existence().absence(strategy).is_some() || !state.settings.strategies.contains(strategy) {
+            if !takes_part(state, live, strategy) {
                 return Err(Missing::NotThere);
             }
             let asked = live.engine().and_then(|engine| engine.picture(engine::Source::Strategy(strategy, mode)));
@@ -186,7 +192,7 @@ pub fn name(state: &State, live: &Live, source: Source) -> String {
     }
 }
 
-/// What a picture was rendered with, if it was.
+/// What a picture was rendered with, if it was; `None` while the picture on show is still that of the job before.
 pub fn rendered(state: &State, live: &Live, source: Source) -> Option<Rendered> {
     if let Source::Kept(id) = source {
         let kept = state.compare.kept.iter().find(|kept| kept.id == id)?;
@@ -195,7 +201,19 @@ pub fn rendered(state: &State, live: &Live, source: Source) -> Option<Rendered> 
             About::File(_) => None,
         };
     }
-    let (frame, job) = (live.frame()?, live.engine()?.job());
+    let (frame, engine) = (live.frame()?, live.engine()?);
+    if frame.generation != engine.generation() {
+        return None;
+    }
+    // What is counted beside the renderer has samples of its own.
+    let (spp, seconds) = match source {
+        Source::Strategy(strategy, mode) => {
+            let picture = engine.picture(engine::Source::Strategy(strategy, mode))?;
+            (picture.spp, (mode == Mode::Weighted).then_some(frame.stats.seconds))
+        }
+        _ => (frame.stats.spp, Some(frame.stats.seconds)),
+    };
+    let job = engine.job();
     Some(Rendered {
         source,
         scene: job.scene.name.clone(),
@@ -204,8 +222,8 @@ pub fn rendered(state: &State, live: &Live, source: Source) -> Option<Rendered> 
         lens: job.lens,
         settings: job.settings,
         hidden: state.left_out(&live.existence()).0,
-        spp: frame.stats.spp,
-        seconds: frame.stats.seconds,
+        spp,
+        seconds,
     })
 }
 
@@ -221,8 +239,11 @@ fn describe(rendered: &Rendered, shown: Source, lang: Lang) -> String {
     if rendered.hidden > 0 {
         words.push(fill(Text::HiddenCount.in_language(lang), &[&rendered.hidden.to_string()]));
     }
-    let (spp, seconds) = (samples(rendered.spp), format::short(rendered.seconds));
-    words.push(fill(ViewText::SppAndTime.in_language(lang), &[&spp, &seconds]));
+    let spp = samples(rendered.spp);
+    words.push(match rendered.seconds {
+        Some(seconds) => fill(ViewText::SppAndTime.in_language(lang), &[&spp, &format::short(seconds)]),
+        None => fill(ViewText::Spp.in_language(lang), &[&spp]),
+    });
     words.join(" · ")
 }
 
@@ -281,17 +302,17 @@ mod tests {
             settings: Settings::default(),
             hidden: 0,
             spp: 64.0,
-            seconds: 3.21,
+            seconds: Some(3.21),
         };
         assert_eq!(describe(&rendered, Source::Kept(1), Lang::En), "BDPT · power β = 2 · 64 spp, 3.21 s");
         rendered.settings.strategies = StrategySet::path_tracer();
         rendered.settings.heuristic.kind = HeuristicKind::Balance;
-        (rendered.hidden, rendered.spp) = (2, 1.25);
+        (rendered.hidden, rendered.spp, rendered.seconds) = (2, 1.25, None);
         rendered.source = Source::Strategy(Strategy::new(1, 2), Mode::Raw);
-        assert_eq!(describe(&rendered, Source::Kept(1), Lang::En), "(1,2) unweighted C* · PT · balance · 2 hidden · 1.2 spp, 3.21 s");
+        assert_eq!(describe(&rendered, Source::Kept(1), Lang::En), "(1,2) unweighted C* · PT · balance · 2 hidden · 1.2 spp");
         (rendered.edited, rendered.moved, rendered.hidden, rendered.source) = (true, true, 0, Source::Image);
         rendered.lens = Some(Lens { radius: 0.02, focus_distance: f32::INFINITY });
-        let changed = "edited scene · camera moved · lens 0.0200 m, focus ∞ m · PT · balance · 1.2 spp, 3.21 s";
+        let changed = "edited scene · camera moved · lens 0.0200 m, focus ∞ m · PT · balance · 1.2 spp";
         assert_eq!(describe(&rendered, Source::Kept(1), Lang::En), changed);
         rendered.lens = Some(Lens { radius: 0.0, focus_distance: 1.0 });
         assert!(describe(&rendered, Source::Kept(1), Lang::Zh).starts_with("场景已更改 · 相机已移动 · 针孔"));

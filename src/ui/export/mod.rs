@@ -17,7 +17,7 @@ const WIDTH: f32 = 330.0;
 /// What can be saved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum What {
-    /// The picture with its exposure and tone map, PNG.
+    /// What the image view shows, as it shows it, PNG.
     #[default]
     Seen,
     /// The picture's linear radiance, EXR.

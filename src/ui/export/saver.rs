@@ -4,8 +4,9 @@ use super::{Request, What};
 use crate::bdpt::{PathRecord, Strategy};
 use crate::engine::{Engine, Frame, Layers};
 use crate::film::save::{Layer, Window, check_writable, save_bytes, save_exr, save_png};
-use crate::film::tonemap::{ToneMap, to_srgb8};
 use crate::report::export;
+use crate::ui::compare::{self, Pair};
+use crate::ui::darkroom::{Recipe, develop, on_show};
 use crate::ui::state::State;
 use crate::ui::text::{ExportText, fill};
 use crate::ui::wake::Wake;
@@ -18,7 +19,9 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 pub struct Sources<'a> {
     /// The rendering.
     pub engine: Option<&'a Engine>,
-    /// Its newest frame.
+    /// What the image view shows.
+    pub shown: Option<&'a Pair>,
+    /// The newest frame.
     pub frame: Option<&'a Arc<Frame>>,
     /// The record on show.
     pub record: Option<&'a Arc<PathRecord>>,
@@ -26,7 +29,7 @@ pub struct Sources<'a> {
 
 /// What is written, with everything that is needed for it: the thread looks at nothing else.
 enum Content {
-    Seen(Arc<Frame>, f32, ToneMap),
+    Seen(Vec<compare::Content>, Recipe),
     Radiance(Arc<Frame>),
     Layers(Receiver<Layers>),
     Json(Arc<PathRecord>),
@@ -40,7 +43,10 @@ impl Content {
         let frame = sources.frame.cloned();
         let record = sources.record.cloned();
         Some(match what {
-            What::Seen => Self::Seen(frame?, state.exposure, state.tonemap),
+            What::Seen => {
+                let (contents, recipe) = on_show(state, sources.shown?)?;
+                Self::Seen(contents, recipe)
+            }
             What::Radiance => Self::Radiance(frame?),
             What::Layers => Self::Layers(sources.engine?.layers()),
             What::Json => Self::Json(record?),
@@ -55,9 +61,10 @@ impl Content {
         // A bad destination is found before the images are made.
         check_writable(path).map_err(|error| error.to_string())?;
         match self {
-            Self::Seen(frame, exposure, tonemap) => {
-                let rgb: Vec<u8> = frame.image.iter().flat_map(|pixel| to_srgb8(*pixel, exposure, tonemap)).collect();
-                save_png(path, frame.size, &rgb).map_err(|error| error.to_string())
+            Self::Seen(contents, recipe) => {
+                let image = develop(&contents, recipe).image;
+                let rgb: Vec<u8> = image.pixels.iter().flat_map(|pixel| [pixel.r(), pixel.g(), pixel.b()]).collect();
+                save_png(path, image.size.map(|n| n as u32), &rgb).map_err(|error| error.to_string())
             }
             Self::Radiance(frame) => {
                 let layer = Layer { name: "", pixels: &frame.image };

@@ -39,10 +39,13 @@ impl Desk {
         self.darkroom = Darkroom::new(ctx);
     }
 
-    /// Does what the state asks for. True if something new is there.
-    pub fn sync(&mut self, state: &mut State, live: &Live) -> bool {
-        if let Some((which, engine)) = on_gpu(state, live).zip(live.engine()) {
-            self.replayer.ask(which, engine.job());
+    /// Does what the state asks for; `held`: something is being dragged. True if something new is there.
+    pub fn sync(&mut self, state: &mut State, live: &Live, held: bool) -> bool {
+        match on_gpu(state, live).zip(live.engine()) {
+            // A question may bring a whole scene to the device: none on the way to another, and none whose answer nobody sees.
+            Some((which, engine)) if !held && state.image_on_show() => self.replayer.ask(which, engine.job()),
+            Some(_) => {}
+            None => self.replayer.rest(),
         }
         self.keeper.sync(state, live)
     }

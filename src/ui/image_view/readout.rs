@@ -8,7 +8,6 @@ use super::super::study;
 use super::super::text::{Text, ViewText, fill};
 use super::super::widgets::{finite, full_name, keep_together, labelled};
 use super::Replayed;
-use crate::bdpt::PathRecord;
 use crate::film::picture::pixel_of;
 use crate::math::Vec3;
 use eframe::egui::{DragValue, Label, RichText, Ui};
@@ -43,7 +42,8 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, replayed: &Replayed) {
     }
     if let Some(record) = live.record(state) {
         let name = fill(state.say(ViewText::SampleAlone), &[&record.sample.to_string()]);
-        let value = written(on_its_pixel(record, state));
+        // As the mean counts it: without what is hidden.
+        let value = written(record.on_its_pixel(|strategy| !state.hidden.contains(strategy)));
         let mut help = state.say(ViewText::HelpSampleAlone).to_owned();
         if *replayed == Replayed::NotOnGpu {
             help = format!("{help}\n{}", state.say(ViewText::NotOnGpu));
@@ -116,14 +116,6 @@ fn mean(state: &State, live: &Live) -> Option<(String, String)> {
 
 fn written(value: Vec3) -> String {
     value.to_array().map(|v| format::number(f64::from(v))).join("  ")
-}
-
-/// What the sample adds to its own pixel, as the mean counts it: without what is hidden.
-fn on_its_pixel(record: &PathRecord, state: &State) -> Vec3 {
-    let here = |raster: [f32; 2]| raster.map(|v| v.floor() as i64) == record.pixel.map(i64::from);
-    let shown = record.strategies.iter().filter(|x| x.feasible && !state.hidden.contains(x.strategy()));
-    let lands = shown.filter(|x| x.strategy().stays_in_pixel() || x.raster.is_some_and(here));
-    lands.map(|x| Vec3::from(x.contribution)).sum()
 }
 
 #[cfg(test)]

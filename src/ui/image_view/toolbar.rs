@@ -138,7 +138,7 @@ fn open_large(ui: &mut Ui, state: &mut State, live: &Live) {
     let there = compare::takes_part(state, live, state.selection.strategy);
     let button = ui.add_enabled(there, Button::new(state.say(ViewText::OpenLarge)).selected(state.compare.a == selected));
     if button.on_hover_text(state.say(ViewText::HelpOpenLarge)).on_disabled_hover_text(state.say(ViewText::NotThere)).clicked() {
-        state.compare.a = selected;
+        state.open_large(state.selection.strategy, state.study.mode);
     }
 }
 

@@ -23,8 +23,7 @@ use super::text::{InspectText, Text, absence_text, fill, reason_text};
 use super::widgets::{finite, full_name, labelled};
 use super::{checks, edit, format};
 use crate::bdpt::record::StrategyRecord;
-use crate::bdpt::{Existence, Heuristic, PathRecord, Strategy};
-use crate::math::Vec3;
+use crate::bdpt::{Existence, Heuristic, Strategy};
 use eframe::egui::{self, DragValue, Label, Response, RichText, ScrollArea, Ui};
 
 /// The inspector's own choices.
@@ -114,7 +113,7 @@ fn header(ui: &mut Ui, state: &mut State, live: &Live) {
         search::buttons(ui, state);
     });
     if let Some(record) = live.record(state) {
-        let sum = format::rgb(on_its_pixel(record).to_array());
+        let sum = format::rgb(record.on_its_pixel(|_| true).to_array());
         let adds = ui.add(Label::new(fill(state.say(Text::SampleAdds), &[&sum])).truncate()).on_hover_text(state.say(Text::HelpSampleAdds));
         cite(&adds, || "adds:/strategies".to_owned());
     }
@@ -131,13 +130,6 @@ fn keep_in_sight(ui: &Ui, response: &Response, chosen: bool, state: &State) {
         ui.data_mut(|data| data.insert_temp(id, now));
         response.scroll_to_me(None);
     }
-}
-
-/// What the sample adds to its own pixel: strategies that stay there, and those whose contribution happens to land there.
-fn on_its_pixel(record: &PathRecord) -> Vec3 {
-    let here = |raster: [f32; 2]| raster.map(|v| v.floor() as i64) == record.pixel.map(i64::from);
-    let lands = |x: &&StrategyRecord| x.feasible && (x.strategy().stays_in_pixel() || x.raster.is_some_and(here));
-    record.strategies.iter().filter(lands).map(|x| Vec3::from(x.contribution)).sum()
 }
 
 /// Why a strategy does not exist here, in a sentence.

@@ -22,23 +22,18 @@ pub struct StudyState {
     pub why: bool,
 }
 
-/// What is to be counted for what is on show: nothing that nobody sees.
-pub fn wish(state: &State, frame: Option<&Frame>) -> Wish {
+/// What is to be counted for what is on show: nothing that nobody sees; `paused`: rendering stands still.
+pub fn wish(state: &State, frame: Option<&Frame>, paused: bool) -> Wish {
     let on_show = match state.maximised {
         Maximised::None => state.prefs.pyramid_open,
         Maximised::Pyramid => true,
         _ => false,
     };
     if !on_show {
-        return Wish { paused: state.paused, ..Wish::default() };
+        return Wish { paused, ..Wish::default() };
     }
     let black = |frame: &Frame| frame.stats.spp >= 1.0 && frame.thumbnails.iter().any(|x| x.share <= 0.0);
-    Wish {
-        mode: state.study.mode,
-        outcomes: frame.is_some_and(black),
-        pixel: state.study.why.then_some(state.selection.pixel),
-        paused: state.paused,
-    }
+    Wish { mode: state.study.mode, outcomes: frame.is_some_and(black), pixel: state.study.why.then_some(state.selection.pixel), paused }
 }
 
 /// A mode's name, and what it means.
@@ -76,13 +71,14 @@ mod tests {
     #[test]
     fn nothing_is_counted_that_nobody_sees() {
         let mut state = State::new(Preferences::default(), [8, 8]);
-        assert_eq!(wish(&state, None), Wish::default());
+        assert_eq!(wish(&state, None, false), Wish::default());
+        assert_eq!(wish(&state, None, true), Wish { paused: true, ..Wish::default() });
         state.study = StudyState { mode: Mode::Variance, why: true };
-        assert_eq!(wish(&state, None), Wish { mode: Mode::Variance, pixel: Some([4, 4]), ..Wish::default() });
+        assert_eq!(wish(&state, None, false), Wish { mode: Mode::Variance, pixel: Some([4, 4]), ..Wish::default() });
         state.maximised = Maximised::Image;
-        assert_eq!(wish(&state, None), Wish::default());
+        assert_eq!(wish(&state, None, false), Wish::default());
         state.maximised = Maximised::None;
         state.prefs.pyramid_open = false;
-        assert_eq!(wish(&state, None), Wish::default());
+        assert_eq!(wish(&state, None, false), Wish::default());
     }
 }

@@ -4,7 +4,7 @@ use super::scale;
 use crate::bdpt::Strategy;
 use crate::engine::{CellStudy, Study, Values};
 use crate::film::colourmap::viridis;
-use crate::film::tonemap::{ToneMap, fitting_exposure, to_srgb8};
+use crate::film::tonemap::{Look, fitting_exposure};
 use crate::ui::state::{Gain, State};
 use eframe::egui::{Color32, ColorImage, Context, TextureHandle, TextureId, TextureOptions};
 use std::collections::HashMap;
@@ -18,7 +18,7 @@ const BUDGET: Duration = Duration::from_millis(4);
 /// What a texture was made from.
 struct Made {
     study: Arc<Study>,
-    look: (f32, ToneMap, Gain),
+    look: (Look, Gain),
 }
 
 /// The textures on show.
@@ -35,7 +35,7 @@ impl CellTextures {
         if self.pass != ctx.cumulative_pass_nr() {
             (self.pass, self.spent) = (ctx.cumulative_pass_nr(), Duration::ZERO);
         }
-        let look = (state.exposure, state.tonemap, state.prefs.gain);
+        let look = (state.look(), state.prefs.gain);
         let old = self.slots.get(&cell.strategy).filter(|(_, made)| made.study.mode == study.mode);
         let fresh = old.is_some_and(|(_, made)| Arc::ptr_eq(&made.study, study) && made.look == look);
         if fresh || self.spent >= BUDGET {
@@ -71,8 +71,11 @@ impl CellTextures {
 fn develop(state: &State, study: &Study, cell: &CellStudy) -> Option<ColorImage> {
     let pixels: Vec<Color32> = match &cell.values {
         Values::Colour(pixels) => {
-            let exposure = if state.prefs.gain == Gain::Each { fitting_exposure(pixels) } else { state.exposure };
-            pixels.iter().map(|&radiance| rgb(to_srgb8(radiance, exposure, state.tonemap))).collect()
+            let look = match state.prefs.gain {
+                Gain::Same => state.look(),
+                Gain::Each => Look { exposure_ev: fitting_exposure(pixels), offset: 0.0, ..state.look() },
+            };
+            pixels.iter().map(|&radiance| rgb(look.rgb8(radiance))).collect()
         }
         Values::Scalar(values) => {
             let scale = scale(state, study, cell);
@@ -86,4 +89,28 @@ fn develop(state: &State, study: &Study, cell: &CellStudy) -> Option<ColorImage>
 
 fn rgb([r, g, b]: [u8; 3]) -> Color32 {
     Color32::from_rgb(r, g, b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::Mode;
+    use crate::math::Vec3;
+    use crate::ui::state::Preferences;
+
+    #[test]
+    fn cells_are_shown_with_the_views_offset_unless_each_has_its_own_gain() {
+        let values = Values::Colour(vec![Vec3::splat(0.25)]);
+        let cell =
+            CellStudy { strategy: Strategy::new(1, 2), outcomes: Default::default(), size: [1, 1], values, range: None, share: None };
+        let study = Study { generation: 0, mode: Mode::Raw, spp: 1.0, block: 1, cells: vec![cell.clone()], range: None, pixel: None };
+        let mut state = State::new(Preferences::default(), [1, 1]);
+        (state.exposure, state.view.offset) = (1.0, 0.125);
+        let mut pixel = |gain| {
+            state.prefs.gain = gain;
+            develop(&state, &study, &cell).unwrap().pixels[0]
+        };
+        assert_eq!(pixel(Gain::Same), rgb(Look::default().rgb8(Vec3::splat(0.625))));
+        assert_eq!(pixel(Gain::Each), rgb(Look::default().rgb8(Vec3::splat(0.9))));
+    }
 }

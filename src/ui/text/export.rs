@@ -4,7 +4,7 @@ texts! { ExportText;
     Save: "Save", "保存";
     HelpSave: "Save the picture, the strategies' images or this sample into a file", "把图像、各策略的图像或此采样保存为文件";
     PictureAsSeen: "Picture as shown (PNG)", "所见图像（PNG）";
-    HelpPictureAsSeen: "Eight bits, with the exposure and tone map of the image view", "8 位，采用图像视图的曝光与色调映射";
+    HelpPictureAsSeen: "Eight bits: what the image view shows, with its exposure, offset and tone map, or in its colour scale; of a split view, A", "8 位：图像视图所示画面，含曝光、偏移与色调映射，或按其色标；分屏时为 A";
     Radiance: "Linear radiance (EXR)", "线性辐射亮度（EXR）";
     HelpRadiance: "32-bit floats, W m⁻² sr⁻¹, hidden strategies left out as in the image", "32 位浮点，W m⁻² sr⁻¹；与图像一样不含隐藏的策略";
     AllStrategies: "All strategies (layered EXR)", "全部策略（分层 EXR）";
