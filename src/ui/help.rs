@@ -15,6 +15,7 @@ pub fn show(ctx: &egui::Context, state: &mut State) {
         .resizable(false)
         .anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0))
         .vscroll(true)
+        .default_height(ctx.content_rect().height() - 90.0)
         .max_height(ctx.content_rect().height() - 90.0)
         .show(ctx, |ui| {
             ui.set_max_width(520.0);

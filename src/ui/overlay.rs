@@ -6,7 +6,7 @@ use super::live::Live;
 use super::marks;
 use super::places::{self, Place};
 use super::projection::{Piece, Projection};
-use super::state::State;
+use super::state::{Maximised, State};
 use super::text::Text;
 use super::theme;
 use super::widgets::full_name;
@@ -68,7 +68,8 @@ pub fn show(ui: &mut Ui, painter: &Painter, state: &State, live: &Live, view: &d
             splats(ui, painter, state, record, view);
         }
     }
-    if shown.legend {
+    // Beside the image, which has one, the view in space needs none.
+    if shown.legend && (!view.shows_lens() || state.maximised == Maximised::Space) {
         super::legend::show(ui, state, live, [view.clip(), view.picture()], !view.shows_lens());
     }
 }

@@ -188,7 +188,10 @@ fn no_file_is_forgotten() {
         .filter(|entry| entry.path().extension().is_some_and(|extension| extension == "wgsl"))
         .map(|entry| entry.path().strip_prefix(&root).unwrap().to_string_lossy().replace('\\', "/"))
         .collect();
-    let mut listed: Vec<_> = FILES.iter().map(|(name, _)| (*name).to_owned()).collect();
+    // The kernels' files, and the one of the 3-D view's raster.
+    let raster = "raster/surface.wgsl";
+    assert_eq!(std::fs::read_to_string(root.join(raster)).unwrap(), bdpt_explorer::gpu::raster::SHADER);
+    let mut listed: Vec<_> = FILES.iter().map(|(name, _)| *name).chain([raster]).map(str::to_owned).collect();
     there.sort();
     listed.sort();
     assert_eq!(there, listed);
