@@ -23,6 +23,10 @@ mod compare;
 mod edit;
 #[path = "ui/edit_again.rs"]
 mod edit_again;
+#[path = "ui/edit_files.rs"]
+mod edit_files;
+#[path = "ui/edit_looks.rs"]
+mod edit_looks;
 #[path = "ui/escape.rs"]
 mod escape;
 #[path = "ui/existence.rs"]
@@ -33,6 +37,8 @@ mod gallery;
 mod glb;
 #[path = "ui/inspect.rs"]
 mod inspect;
+#[path = "ui/keys.rs"]
+mod keys;
 #[path = "ui/layout.rs"]
 mod layout;
 #[path = "ui/lens.rs"]
@@ -305,51 +311,6 @@ fn a_job_that_cannot_run_is_explained_and_the_old_one_goes_on() {
     assert_eq!((app.state().size, app.state().settings.max_edges), (SIZE, 6));
     assert_eq!(generation(&window), before);
     assert!(window.query_by_label_contains("MiB").is_some());
-}
-
-#[test]
-fn keys_do_what_the_table_says_but_not_while_typing() {
-    let mut window = cornell();
-    let [x, y] = window.state().state().selection.pixel;
-    press(&mut window, Key::ArrowRight);
-    press(&mut window, Key::ArrowUp);
-    assert_eq!(window.state().state().selection.pixel, [x + 1, y - 1]);
-    click(&mut window, Role::Button, "Next");
-    press(&mut window, Key::N);
-    assert_eq!(window.state().state().selection.sample, 2);
-    press(&mut window, Key::ArrowLeft);
-    assert_eq!(window.state().state().selection.pixel, [x, y - 1], "a click leaves the keyboard to the image");
-    press(&mut window, Key::E);
-    assert_eq!(window.state().state().exposure, 0.5);
-    window.key_press_modifiers(Modifiers::SHIFT, Key::E);
-    window.run_steps(2);
-    assert_eq!(window.state().state().exposure, 0.0);
-    press(&mut window, Key::Num3);
-    assert_eq!(window.state().state().selection.strategy, Strategy::new(2, 1));
-    press(&mut window, Key::Space);
-    assert_eq!(window.state().state().selection.vertex, 1);
-    press(&mut window, Key::P);
-    assert!(window.state().live().engine().expect("an engine").paused());
-    press(&mut window, Key::H);
-    assert!(window.state().state().hidden.contains(Strategy::new(2, 1)));
-    // In a field, the same keys are text.
-    window.get_by_role_and_label(Role::SpinButton, "K").click();
-    window.run_steps(2);
-    let sample = window.state().state().selection.sample;
-    press(&mut window, Key::N);
-    assert_eq!(window.state().state().selection.sample, sample);
-}
-
-#[test]
-fn help_lists_every_key() {
-    let mut window = cornell();
-    click(&mut window, Role::Button, "?");
-    for row in TABLE {
-        assert!(window.query_all_by_label(row.shown).next().is_some(), "{}", row.shown);
-        assert!(window.query_all_by_label(row.text.in_language(Lang::En)).next().is_some(), "{:?}", row.text);
-    }
-    press(&mut window, Key::Escape);
-    assert!(!window.state().state().help);
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use super::*;
 use bdpt_explorer::engine::{Job, Session};
 use bdpt_explorer::math::DVec3;
-use bdpt_explorer::scene::{Pose, SceneEdits, edit};
+use bdpt_explorer::scene::{Pose, edit};
 use bdpt_explorer::ui::state::Tab;
 
 pub(super) fn job(window: &Harness<'static, App>) -> Job {
@@ -25,7 +25,7 @@ pub(super) fn settle(window: &mut Harness<'static, App>) {
 }
 
 /// The window with the scene's page, the inspector as tall as the window.
-fn page(scene: Arc<Scene>) -> Harness<'static, App> {
+pub(super) fn page(scene: Arc<Scene>) -> Harness<'static, App> {
     let mut window = showing(scene);
     window.state_mut().state_mut().prefs.tab = Tab::Scene;
     window.state_mut().state_mut().maximised = bdpt_explorer::ui::state::Maximised::Inspector;
@@ -33,19 +33,19 @@ fn page(scene: Arc<Scene>) -> Harness<'static, App> {
     window
 }
 
-fn cornell_scene() -> Arc<Scene> {
+pub(super) fn cornell_scene() -> Arc<Scene> {
     Arc::new(builtin::open("cornell").expect("a built-in scene opens"))
 }
 
 /// Opens the item of this title in the lists below, not that of the selected vertex.
-fn open_item(window: &mut Harness<'static, App>, title: &str) {
+pub(super) fn open_item(window: &mut Harness<'static, App>, title: &str) {
     let items: Vec<_> = window.query_all_by_label(title).collect();
     items.last().expect("the item").click();
     window.run_steps(20);
 }
 
 /// Selects a path that starts with this strategy and has light, and its vertex.
-fn select(window: &mut Harness<'static, App>, strategy: Strategy, vertex: usize) {
+pub(super) fn select(window: &mut Harness<'static, App>, strategy: Strategy, vertex: usize) {
     let state = window.state_mut().state_mut();
     state.select_strategy(strategy);
     state.selection.vertex = vertex;
@@ -352,132 +352,4 @@ fn the_camera_has_numbers_and_views_to_come_back_to() {
     assert_eq!(again.bookmarks, window.state().state().prefs.bookmarks);
     click(&mut window, Role::Button, "Delete view View 1 too");
     assert!(window.state().state().prefs.bookmarks.is_empty());
-}
-
-/// A room whose back wall has this albedo, under a lamp.
-pub(super) fn file_with(albedo: f64, name: &str) -> Vec<u8> {
-    let mut scene = glb::Glb::new("a room");
-    let wall = scene.material(glb::lambert(name, [albedo; 3]));
-    let lamp = scene.material(glb::emitter("lamp", [0.0; 3], [1.0; 3], 5.0));
-    scene.object("wall", &glb::Shape::quad([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]]), wall);
-    scene.object("lamp", &glb::Shape::quad([[-0.3, 1.5, 0.3], [0.3, 1.5, 0.3], [0.3, 1.5, 0.9], [-0.3, 1.5, 0.9]]), lamp);
-    scene.camera("camera", [0.0, 0.0, 3.0], [0.0, 0.0], 0.8);
-    scene.bytes()
-}
-
-#[test]
-fn a_file_that_changes_is_read_again_with_edits_camera_and_selection() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("room.glb");
-    std::fs::write(&path, file_with(0.5, "wall")).expect("a file");
-    let mut window = start(SceneSource::Named(path.display().to_string()));
-    until(&mut window, "the file", |app| app.live().record(app.state()).is_some());
-    assert_eq!(window.state().state().prefs.recent, [path.display().to_string()]);
-    let state = window.state_mut().state_mut();
-    state.selection.pixel = [20, 30];
-    let edits = r#"{"lamps":{"0":{"name":"lamp","power":3.0}},"materials":{"0":{"name":"wall","roughness":0.5,"metallic":0.25}}}"#;
-    state.edit.edits = serde_json::from_str::<SceneEdits>(edits).expect("edits");
-    settle(&mut window);
-    let scene = job(&window).scene;
-    let pose = Pose::of(&scene, &scene.cameras[0]).shifted(0.1, 0.0, 0.0);
-    window.state_mut().state_mut().pose = Some(pose);
-    let albedo = |app: &App| app.live().file_scene().expect("a scene").recipes[0].color.x;
-    std::fs::write(&path, file_with(0.25, "wall")).expect("a file");
-    until(&mut window, "the new version", |app| albedo(app) == 0.25);
-    settle(&mut window);
-    let state = window.state().state();
-    assert_eq!((state.pose, state.selection.pixel), (Some(pose), [20, 30]));
-    assert_eq!(serde_json::to_string(&state.edit.edits.lamps[&0]).unwrap(), r#"{"name":"lamp","power":3.0}"#);
-    assert_eq!(job(&window).scene.materials[0].metallic, 0.25);
-    assert_record(&window);
-    // A broken version keeps the old picture and says so.
-    let before = generation(&window);
-    std::fs::write(&path, b"glTF, but not really").expect("a file");
-    until(&mut window, "the complaint", |app| app.state().messages.iter().any(|m| m.error && m.text.contains("the old picture stays")));
-    assert_eq!((albedo(window.state()), generation(&window)), (0.25, before));
-    // The next good one is cure; what has no place any more is named.
-    std::fs::write(&path, file_with(0.75, "another wall")).expect("a file");
-    until(&mut window, "the repaired version", |app| albedo(app) == 0.75);
-    settle(&mut window);
-    assert!(!window.state().state().messages.iter().any(|m| m.error));
-    assert!(window.state().state().messages.iter().any(|m| m.text.contains("changes of: wall")), "{:?}", window.state().state().messages);
-    assert!(window.state().state().edit.edits.materials.is_empty());
-    assert_eq!(window.state().state().edit.edits.lamps[&0].power, Some(3.0));
-}
-
-#[test]
-fn files_opened_last_are_in_the_menu_and_another_scene_starts_afresh() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("room.glb");
-    std::fs::write(&path, file_with(0.5, "wall")).expect("a file");
-    let mut window = cornell();
-    window.state_mut().state_mut().edit.edits.lamps.insert(0, edit::LampEdit { name: "light".into(), ..Default::default() });
-    window.state_mut().state_mut().edit.edits = SceneEdits::default();
-    drop_file(&mut window, path.clone());
-    until(&mut window, "the dropped scene", |app| app.live().scene().is_some_and(|s| s.name != "cornell"));
-    until(&mut window, "its record", |app| app.live().record(app.state()).is_some());
-    assert_eq!(window.state().state().edit.history.steps(), [false, false], "nothing to undo in a new scene");
-    window.state_mut().state_mut().open = Some(Opening::of("furnace"));
-    until(&mut window, "another", |app| app.live().scene().is_some_and(|s| s.name == "furnace"));
-    window.run_steps(2);
-    window.get_by_role_and_label(Role::ComboBox, "Scene").click();
-    window.run_steps(3);
-    window.get_by_role_and_label(Role::Button, "Open file…");
-    click(&mut window, Role::Button, "room.glb");
-    until(&mut window, "the file again", |app| app.live().scene().is_some_and(|s| s.name != "furnace"));
-}
-
-#[test]
-fn every_control_of_the_page_has_a_name_in_both_languages() {
-    for scene in [scenes::sky_and_sun(), cornell_scene(), Arc::new(builtin::open("spots").expect("a built-in scene opens"))] {
-        let mut window = page(scene);
-        for lang in [Lang::En, Lang::Zh] {
-            window.state_mut().state_mut().prefs.lang = lang;
-            window.run_steps(3);
-            let titles: Vec<String> = window
-                .query_all_by_role(Role::DisclosureTriangle)
-                .filter_map(|node| node.accesskit_node().label())
-                .filter(|label| label.contains(" · ") || label.contains("environment") || label.contains("环境"))
-                .collect();
-            for title in titles {
-                open_item(&mut window, &title);
-            }
-            window.check_accessibility();
-        }
-    }
-}
-
-/// Pictures of the page, to look at: with `BDPT_SCREENSHOT_DIR`, `cargo test --test ui edit::looks -- --ignored`.
-#[test]
-#[ignore = "makes pictures to look at"]
-fn looks() {
-    let sizes = [("1440", [1440.0, 900.0]), ("1280", [1280.0, 800.0]), ("1024", [1024.0, 768.0])];
-    for (name, lang, dark, size) in [
-        ("en-dark", Lang::En, true, sizes[0]),
-        ("zh-light", Lang::Zh, false, sizes[1]),
-        ("en-light", Lang::En, false, sizes[2]),
-        ("zh-dark", Lang::Zh, true, sizes[2]),
-    ] {
-        let mut window = screenshots::drawn(scenes::sky_and_sun(), size.1);
-        let state = window.state_mut().state_mut();
-        (state.prefs.lang, state.prefs.dark, state.prefs.tab) = (lang, dark, Tab::Scene);
-        state.prefs.space_open = false;
-        let json = r#"{"materials":{"1":{"name":"stuff","color":[0.2,0.5,0.3]}}}"#;
-        state.edit.edits = serde_json::from_str(json).expect("edits");
-        state.select_strategy(Strategy::new(1, 2));
-        state.selection.vertex = 1;
-        screenshots::picture(&mut window, &format!("edit-{name}-{}", size.0));
-        let state = window.state_mut().state_mut();
-        state.maximised = bdpt_explorer::ui::state::Maximised::Inspector;
-        window.run_steps(3);
-        let titles: Vec<String> = window
-            .query_all_by_role(Role::DisclosureTriangle)
-            .filter_map(|node| node.accesskit_node().label())
-            .filter(|label| label.contains(" · ") || label.contains("environment") || label.contains("环境"))
-            .collect();
-        for title in titles.iter().skip(1) {
-            open_item(&mut window, title);
-        }
-        screenshots::picture(&mut window, &format!("edit-all-{name}-{}", size.0));
-    }
 }

@@ -1,6 +1,7 @@
 //! Scenes that are read again: what of the steps, the pause, the light and the views stays.
 
-use super::edit::{file_with, job, settle};
+use super::edit::{job, settle};
+use super::edit_files::file_with;
 use super::glb::{self, Glb, Shape};
 use super::*;
 use bdpt_explorer::scene::environment::EnvironmentSource;

@@ -181,7 +181,7 @@ fn conditioning(context: &Context, x: &[Vertex]) -> f64 {
             }
         }
         // A narrow lobe turns a rounded direction into another density: ∂ ln D is 2/α at most.
-        let narrow = if glossy { 1.0 + 0.3 / f64::from(Material::alpha(v.look.roughness)) } else { 1.0 };
+        let narrow = if glossy { 1.0 + 0.1 / f64::from(Material::alpha(v.look.roughness)) } else { 1.0 };
         sum += (0.3 / f64::from(smallest)).powi(2) * narrow;
     }
     sum.max(1.0)

@@ -88,9 +88,10 @@ fn brief(ui: &mut Ui, state: &State, live: &Live, replayed: &Replayed) {
     if judgement(state, replayed).is_some_and(|(_, warning, _)| warning) {
         badge(ui, state, replayed);
     }
-    if let Some((samples, mean)) = mean(state, live)
-        && ui.available_size_before_wrap().x > 90.0
-    {
+    if let Some((samples, mean)) = mean(state, live) {
+        if ui.available_size_before_wrap().x < 90.0 {
+            ui.end_row();
+        }
         let name = fill(state.say(ViewText::MeanOf), &[&samples]);
         let help = format!("{name} {mean}\n{}", state.say(ViewText::HelpMean));
         let words = RichText::new(format!("{} {mean}", state.say(ViewText::Mean))).small();
