@@ -5,7 +5,7 @@
 //! ```
 //!
 //! times what the path's conditioning allows in f32. Any scene may have paths that are worse conditioned than foreseen: one path in
-//! 1000 may differ by more, and none by 10⁻³. A decision that a rounding turns (an edge just blocked, a raster position on the film's
+//! 300 may differ by more, and none by 10⁻³. A decision that a rounding turns (an edge just blocked, a raster position on the film's
 //! border) leaves a path undecided; that must be as rare.
 
 use super::said::{pair, short};
@@ -27,7 +27,7 @@ pub const BOUND: f64 = 1e-5;
 /// The bound on the difference of a path that is worse conditioned than foreseen.
 const GROSS: f64 = 1e-3;
 /// One path in so many may be that.
-const RARE: u64 = 1000;
+const RARE: u64 = 300;
 /// Fewest rebuilt paths that mean anything.
 const ENOUGH: u64 = 100;
 
