@@ -10,7 +10,7 @@
 //! 3  gpu
 //! 2  bdpt
 //! 1  scene film
-//! 0  math rng layout
+//! 0  math rng layout task
 //! ```
 
 pub mod bdpt;
@@ -24,4 +24,5 @@ pub mod math;
 pub mod report;
 pub mod rng;
 pub mod scene;
+pub mod task;
 pub mod ui;
