@@ -26,6 +26,7 @@ const HOMES: &[(&str, &[&str])] = &[
     ("indicatif", &["cli/"]),
     ("obvhs", &["scene/bvh.rs"]),
     ("js_sys", &["task/page.rs", "ui/web.rs", "ui/web/"]),
+    ("log", &["ui/web/"]),
     ("pollster", &["engine/", "task/thread.rs"]),
     ("rayon", &["bdpt/", "film/", "engine.rs", "engine/", "report/check/", "scene/gltf/images.rs"]),
     ("rfd", &["ui/"]),
