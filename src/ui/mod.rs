@@ -15,6 +15,7 @@ mod darkroom;
 mod edit;
 mod export;
 mod features;
+mod files;
 mod fonts;
 mod format;
 mod help;
@@ -51,6 +52,8 @@ mod tour;
 mod wake;
 #[cfg(not(target_arch = "wasm32"))]
 mod watch;
+#[cfg(target_arch = "wasm32")]
+mod web;
 mod widgets;
 
 pub use app::{App, Start};

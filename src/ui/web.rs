@@ -1,0 +1,3 @@
+//! The window in a page.
+
+pub mod files;
