@@ -8,6 +8,7 @@ use crate::film::save::{Layer, Window, exr_bytes, png_bytes};
 use crate::film::save::{SaveError, check_writable, save_bytes};
 use crate::math::Vec3;
 use crate::report::export;
+use crate::task;
 use crate::ui::compare::{self, Pair};
 use crate::ui::darkroom::{Recipe, develop, on_show};
 use crate::ui::files::limits::mebibytes;
@@ -35,7 +36,7 @@ pub struct Sources<'a> {
 enum Content {
     Seen(Vec<compare::Content>, Recipe),
     Radiance(Arc<Frame>),
-    Layers(Receiver<Layers>),
+    Layers(async_channel::Receiver<Layers>),
     Json(Arc<PathRecord>),
     Diagram(Arc<PathRecord>, Strategy),
     Strategies(Arc<PathRecord>),
@@ -61,7 +62,7 @@ impl Content {
     }
 
     /// The file's bytes.
-    fn bytes(self) -> Result<Vec<u8>, String> {
+    async fn bytes(self) -> Result<Vec<u8>, String> {
         match self {
             Self::Seen(contents, recipe) => {
                 let image = develop(&contents, recipe).image;
@@ -73,7 +74,7 @@ impl Content {
                 exr_bytes(Window::full(frame.size), &[layer])
             }
             Self::Layers(answer) => {
-                let layers = answer.recv().map_err(|error| error.to_string())?;
+                let layers = answer.recv().await.map_err(|error| error.to_string())?;
                 let list: Vec<Layer<'_>> = layers.layers.iter().map(|(name, pixels)| Layer { name, pixels }).collect();
                 exr_bytes(Window::full(layers.size), &list)
             }
@@ -86,18 +87,18 @@ impl Content {
 
     /// Writes them to the file of this path.
     #[cfg(not(target_arch = "wasm32"))]
-    fn save(self, path: &Path) -> Result<(), Failure> {
+    async fn save(self, path: &Path) -> Result<(), Failure> {
         let plain = |error: SaveError| Failure::Said(error.to_string());
         // A bad destination is found before the images are made.
         check_writable(path).map_err(plain)?;
-        let bytes = self.bytes().map_err(|why| Failure::Said(format!("cannot write '{}': {why}", path.display())))?;
+        let bytes = self.bytes().await.map_err(|why| Failure::Said(format!("cannot write '{}': {why}", path.display())))?;
         save_bytes(path, &bytes).map_err(plain)
     }
 
     /// Hands them to the browser's downloads.
     #[cfg(target_arch = "wasm32")]
-    fn save(self, path: &Path) -> Result<(), Failure> {
-        let handed = self.bytes().and_then(|bytes| crate::ui::web::files::download(&path.display().to_string(), &bytes));
+    async fn save(self, path: &Path) -> Result<(), Failure> {
+        let handed = self.bytes().await.and_then(|bytes| crate::ui::web::files::download(&path.display().to_string(), &bytes));
         handed.map_err(Failure::NoDownload)
     }
 }
@@ -163,13 +164,14 @@ impl Saver {
 
     fn start(&self, state: &mut State, content: Content, path: PathBuf) {
         let (sender, wake, destination) = (self.sender.clone(), self.wake.clone(), path.clone());
-        let work = move || {
-            let outcome = content.save(&destination);
+        let work = move || async move {
+            task::painted().await;
+            let outcome = content.save(&destination).await;
             // The window may be gone meanwhile; the file is there.
             drop(sender.send((destination, outcome)));
             wake.now();
         };
-        match std::thread::Builder::new().name("save".to_owned()).spawn(work) {
+        match task::spawn("save", work) {
             Ok(_) => state.export.underway += 1,
             Err(error) => tell(state, &path, Err(Failure::Said(error.to_string()))),
         }

@@ -146,7 +146,7 @@ mod page {
             door.underway.fetch_add(1, Relaxed);
             self.wake.now();
             // A page can always start work.
-            drop(crate::task::spawn("files", async move {
+            drop(crate::task::spawn("files", move || async move {
                 let files = reading.await;
                 door.underway.fetch_sub(1, Relaxed);
                 door.deliver(purpose, files);
