@@ -2,6 +2,7 @@
 //! [`App`](super::App) goes on in a new one; what cannot go on says so on the page (`web/loader.js`).
 
 mod console;
+pub mod files;
 mod graphics;
 pub mod page;
 
