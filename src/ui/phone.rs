@@ -37,8 +37,8 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, views: Views<'_>) -> Op
     let (thick, slim) = (bar(4), bar(2));
     Panel::top("phone bar").frame(thick).show(ui, |ui| {
         ui.horizontal(|ui| {
-            let menu = ui.toggle_value(&mut state.menu, "☰").on_hover_text(PhoneText::HelpMenu.in_language(state.prefs.lang));
-            menu.widget_info(|| named(state, PhoneText::Menu, state.menu));
+            let (name, help) = (state.say(PhoneText::Menu), state.say(PhoneText::HelpMenu));
+            ui.toggle_value(&mut state.menu, name).on_hover_text(help);
             scene_menu::show(ui, state, live);
             top_bar::pause(ui, state);
             if wide {
@@ -108,7 +108,7 @@ fn tabs(ui: &mut Ui, state: &mut State, width: f32) {
     }
     if front != Maximised::Image && !state.menu {
         let large = state.maximised != Maximised::None;
-        let button = ui.add(Button::selectable(large, if large { "⏷" } else { "⏶" }).min_size(vec2(height, height)));
+        let button = ui.add(Button::selectable(large, "↕").min_size(vec2(height, height)));
         button.widget_info(|| named(state, SpaceText::Maximise, large));
         if button.on_hover_text(state.say(Text::HelpMaximise)).clicked() {
             state.maximised = if large { Maximised::None } else { front };
