@@ -276,7 +276,7 @@ impl Live {
         let current = self.engine.as_ref().map(Engine::job);
         let same_but_for_dragging = current.is_some_and(|job| {
             self.running.as_ref().is_some_and(|old| Arc::ptr_eq(&old.file, &shown.file))
-                && (job.camera, job.size, job.settings, job.backend) == (state.camera, state.size, state.settings, state.prefs.backend)
+                && (job.camera, job.size, job.settings, job.backend) == (state.camera, state.size, state.settings, state.backend())
                 && !state.restart
         });
         let undragged = |job: &Job| (job.pose, job.lens) == (state.pose, state.lens) && Arc::ptr_eq(&job.scene, &shown.scene);
@@ -292,7 +292,7 @@ impl Live {
             size: state.size,
             settings: state.settings,
             weighted_layers: true,
-            backend: state.prefs.backend,
+            backend: state.backend(),
             ..Job::new(shown.scene.clone())
         };
         let result = match &mut self.engine {
@@ -312,7 +312,9 @@ impl Live {
                 if let Some(job) = self.engine.as_ref().map(Engine::job) {
                     state.resize(job.size);
                     (state.settings, state.camera, state.pose, state.lens) = (job.settings, job.camera, job.pose, job.lens);
-                    state.prefs.backend = job.backend;
+                    if state.backend() != job.backend {
+                        state.choose_backend(job.backend);
+                    }
                 }
                 state.tell(true, error.0);
                 self.shown = self.running.clone();

@@ -2,6 +2,7 @@
 
 pub use super::checks::{Ask, ChecksState};
 pub use super::compare::{CompareState, Mode as CompareMode, Source};
+pub use super::drawn::{Drawn, Draws, Why, Wish};
 pub use super::edit::EditState;
 pub use super::export::{ExportState, What};
 pub use super::image_view::ViewState;
@@ -13,7 +14,7 @@ use super::text::{Lang, Text, Words};
 pub use super::touch::Fingers;
 pub use super::tour::Before;
 use crate::bdpt::{Existence, Settings, Strategy, StrategySet};
-use crate::engine::Mode;
+use crate::engine::{Backend, Mode};
 use crate::film::tonemap::{Look, ToneMap};
 use crate::scene::environment::EnvironmentSource;
 use crate::scene::{Lens, Pose};
@@ -187,6 +188,8 @@ pub struct State {
     pub tour: Option<Before>,
     /// The inspector's own choices.
     pub inspect: InspectState,
+    /// In a page, what draws the window.
+    pub drawn: Option<Drawn>,
     /// What there is to say.
     pub messages: Vec<Message>,
 }
@@ -233,6 +236,7 @@ impl State {
             export: ExportState::default(),
             tour: None,
             inspect: InspectState::default(),
+            drawn: None,
             messages: Vec::new(),
         }
     }
@@ -240,6 +244,19 @@ impl State {
     /// A text in the chosen language.
     pub fn say(&self, text: impl Words) -> &'static str {
         text.in_language(self.prefs.lang)
+    }
+
+    /// Who is to render the image.
+    pub fn backend(&self) -> Backend {
+        self.drawn.as_ref().and_then(|drawn| drawn.renders).unwrap_or(self.prefs.backend)
+    }
+
+    /// Chooses who renders the image, also against what the page's address asks for.
+    pub fn choose_backend(&mut self, backend: Backend) {
+        self.prefs.backend = backend;
+        if let Some(drawn) = &mut self.drawn {
+            drawn.renders = None;
+        }
     }
 
     /// Shows a strategy's picture in the image view, and that in front of what would hide it.

@@ -38,6 +38,7 @@ mod study;
 mod table;
 mod tour;
 mod view;
+mod web;
 
 pub use check::{CheckText, phrase_text, said};
 pub use edit::EditText;
@@ -50,6 +51,7 @@ pub use study::StudyText;
 pub use table::Text;
 pub use tour::TourText;
 pub use view::ViewText;
+pub use web::WebText;
 
 use crate::bdpt::record::SplitReason;
 use crate::bdpt::{Absence, End, Reason};
@@ -257,6 +259,7 @@ mod tests {
         check(StudyText::ALL);
         check(TourText::ALL);
         check(ViewText::ALL);
+        check(WebText::ALL);
     }
 
     #[test]

@@ -7,6 +7,7 @@ use super::super::wake::Wake;
 use super::source::{find, rendered};
 use super::{About, Source};
 use crate::film::picture::Picture;
+use crate::task;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -47,7 +48,7 @@ impl Keeper {
             wake.now();
         };
         // Without a thread the sender is gone, and that is told.
-        drop(std::thread::Builder::new().name("picture".to_owned()).spawn(work));
+        drop(task::once("picture", work));
     }
 
     fn finish(&mut self, state: &mut State) -> bool {

@@ -5,6 +5,7 @@ use crate::bdpt::{PathRecord, Strategy};
 use crate::engine::{Engine, Frame, Layers};
 use crate::film::save::{Layer, Window, check_writable, save_bytes, save_exr, save_png};
 use crate::report::export;
+use crate::task;
 use crate::ui::compare::{self, Pair};
 use crate::ui::darkroom::{Recipe, develop, on_show};
 use crate::ui::state::State;
@@ -126,7 +127,7 @@ impl Saver {
             drop(sender.send((destination, outcome)));
             wake.now();
         };
-        match std::thread::Builder::new().name("save".to_owned()).spawn(work) {
+        match task::once("save", work) {
             Ok(_) => state.export.underway += 1,
             Err(error) => tell(state, &path, Err(error.to_string())),
         }
