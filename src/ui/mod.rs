@@ -22,6 +22,7 @@ mod image_view;
 mod inspector;
 pub mod keys;
 mod legend;
+pub mod link;
 mod live;
 mod loader;
 mod looks_menu;

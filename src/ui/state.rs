@@ -6,6 +6,7 @@ pub use super::edit::EditState;
 pub use super::export::{ExportState, What};
 pub use super::image_view::ViewState;
 pub use super::inspector::{Bars, InspectState};
+use super::link::LinkState;
 pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};
 pub use super::space::SpaceState;
 pub use super::study::StudyState;
@@ -178,6 +179,10 @@ pub struct State {
     pub inspect: InspectState,
     /// What there is to say.
     pub messages: Vec<Message>,
+    /// Links: to be copied, and on their way.
+    pub link: LinkState,
+    /// How much of their room the inspector, the pyramid and the 3-D view take, thousandths; `None` = as at the first start.
+    pub shares: [Option<u32>; 3],
 }
 
 impl State {
@@ -218,6 +223,8 @@ impl State {
             tour: None,
             inspect: InspectState::default(),
             messages: Vec::new(),
+            link: LinkState::default(),
+            shares: [None; 3],
         }
     }
 
