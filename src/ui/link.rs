@@ -23,6 +23,8 @@ mod pieces;
 mod sets;
 mod share;
 mod still;
+#[cfg(test)]
+mod tests;
 mod words;
 
 pub use arrive::arrive;
