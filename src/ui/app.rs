@@ -2,6 +2,7 @@
 
 use super::edit::history::Snapshot;
 use super::image_view::Desk;
+use super::link::{self, Share};
 use super::live::{Live, SceneSource};
 use super::pictures::Pictures;
 use super::state::{Maximised, Preferences, State};
@@ -50,9 +51,10 @@ impl App {
         theme::install(ctx);
         let wake = Wake::new(ctx);
         let mut live = Live::new(&wake);
-        live.open(start.source);
+        let mut state = State::new(preferences.unwrap_or_default(), start.size);
+        live.open(start.source, &mut state);
         Self {
-            state: State::new(preferences.unwrap_or_default(), start.size),
+            state,
             live,
             desk: Desk::new(ctx, &wake),
             wake,
@@ -89,6 +91,22 @@ impl App {
     /// What runs.
     pub fn live(&self) -> &Live {
         &self.live
+    }
+
+    /// A link to what is on show, from the # on; empty while nothing is. While the scene of the last link is not on show yet, that
+    /// link.
+    pub fn link(&self) -> String {
+        link::text(&self.state, &self.live).0
+    }
+
+    /// Shows what a link is about: a whole address, or its part from # on. What cannot be followed is said.
+    pub fn open_link(&mut self, link: &str) {
+        link::open(&mut self.state, &self.live, link);
+    }
+
+    /// From now on, links that are copied start with this address (which has no #).
+    pub fn set_link_base(&mut self, address: String) {
+        self.state.link.base = address;
     }
 
     /// Where the centre of a pixel is on the screen.
@@ -134,6 +152,9 @@ impl App {
         }
         Panel::bottom("status bar").frame(slim).show(ui, |ui| status_bar::show(ui, state, live, self.ui_ms));
         let body = Frame::central_panel(ui.style()).fill(Color32::TRANSPARENT).inner_margin(Margin::symmetric(10, 8));
+        if std::mem::take(&mut state.link.resized) {
+            link::let_go(ui);
+        }
         let whole = CentralPanel::default().frame(body);
         match state.maximised {
             Maximised::Pyramid => return drop(whole.show(ui, |ui| pyramid::show(ui, state, live, pictures))),
@@ -143,15 +164,18 @@ impl App {
             Maximised::None => {
                 let room = ui.available_size();
                 if state.prefs.inspector_open {
-                    let panel = Panel::right("inspector")
-                        .frame(body)
-                        .default_size((room.x * 0.36).min(470.0))
-                        .size_range(340.0..=(room.x - IMAGE_ROOM.x).max(340.0));
-                    panel.show(ui, |ui| inspector::show(ui, state, live));
+                    let share = Share::of(state.shares[0], room.x, (room.x * 0.36).min(470.0));
+                    let panel = Panel::right("inspector").frame(body).default_size(share.size());
+                    let panel = panel.size_range(340.0..=(room.x - IMAGE_ROOM.x).max(340.0));
+                    let shown = panel.show(ui, |ui| inspector::show(ui, state, live)).response.rect;
+                    state.shares[0] = share.seen(shown.width());
                 }
                 if state.prefs.pyramid_open {
-                    let panel = Panel::bottom("pyramid").frame(body).resizable(true).default_size((room.y * 0.43).min(PYRAMID_HEIGHT));
-                    panel.size_range(130.0..=(room.y - IMAGE_ROOM.y).max(130.0)).show(ui, |ui| pyramid::show(ui, state, live, pictures));
+                    let share = Share::of(state.shares[1], room.y, (room.y * 0.43).min(PYRAMID_HEIGHT));
+                    let panel = Panel::bottom("pyramid").frame(body).resizable(true).default_size(share.size());
+                    let panel = panel.size_range(130.0..=(room.y - IMAGE_ROOM.y).max(130.0));
+                    let shown = panel.show(ui, |ui| pyramid::show(ui, state, live, pictures)).response.rect;
+                    state.shares[1] = share.seen(shown.height());
                 }
                 let room = ui.available_size();
                 state.narrow = room.x < SIDE_BY_SIDE;
@@ -159,8 +183,11 @@ impl App {
                     return drop(whole.show(ui, |ui| space::show(ui, state, live, stage, gpu)));
                 }
                 if state.prefs.space_open && !state.narrow {
-                    let panel = Panel::right("space").frame(body).resizable(true).default_size(room.x * 0.5);
-                    panel.size_range(200.0..=(room.x - 240.0).max(200.0)).show(ui, |ui| space::show(ui, state, live, stage, gpu));
+                    let share = Share::of(state.shares[2], room.x, room.x * 0.5);
+                    let panel = Panel::right("space").frame(body).resizable(true).default_size(share.size());
+                    let panel = panel.size_range(200.0..=(room.x - 240.0).max(200.0));
+                    let shown = panel.show(ui, |ui| space::show(ui, state, live, stage, gpu)).response.rect;
+                    state.shares[2] = share.seen(shown.width());
                 }
             }
         }
@@ -184,6 +211,8 @@ impl eframe::App for App {
         files::drops(ui, &mut self.state, &self.live);
         self.panels(ui, frame.wgpu_render_state());
         help::show(ui.ctx(), &mut self.state);
+        link::copy(ui.ctx(), &mut self.state, &self.live);
+        link::show_copied(ui.ctx(), &mut self.state);
         keys::release_after_click(ui.ctx());
         // What was changed just now is on its way before the next pass.
         let ctx = ui.ctx().clone();

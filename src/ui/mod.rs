@@ -24,6 +24,7 @@ mod image_view;
 mod inspector;
 pub mod keys;
 mod legend;
+pub mod link;
 mod live;
 mod loader;
 mod looks_menu;

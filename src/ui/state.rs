@@ -8,6 +8,7 @@ pub use super::export::{ExportState, What};
 pub use super::files::{FilesState, Given, Purpose};
 pub use super::image_view::ViewState;
 pub use super::inspector::{Bars, InspectState};
+use super::link::LinkState;
 pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};
 pub use super::space::SpaceState;
 pub use super::study::StudyState;
@@ -203,6 +204,10 @@ pub struct State {
     pub drawn: Option<Drawn>,
     /// What there is to say.
     pub messages: Vec<Message>,
+    /// Links: to be copied, and on their way.
+    pub link: LinkState,
+    /// How much of their room the inspector, the pyramid and the 3-D view take, thousandths; `None` = as at the first start.
+    pub shares: [Option<u32>; 3],
 }
 
 impl State {
@@ -250,6 +255,8 @@ impl State {
             inspect: InspectState::default(),
             drawn: None,
             messages: Vec::new(),
+            link: LinkState::default(),
+            shares: [None; 3],
         }
     }
 
