@@ -93,14 +93,14 @@ pub fn open(state: &mut State, live: &Live, text: &str) {
         }
     };
     state.prefs.lang = link.lang.unwrap_or(state.prefs.lang);
-    let (scene, link) = match &link.scene {
-        Shared::Known(name) if builtin::list().iter().any(|own| own.name == name) => (name.clone(), link),
+    let (file, link) = match &link.scene {
+        Shared::Known(name) if builtin::list().iter().any(|own| own.name == name) => (Opening::of(name), link),
         Shared::Known(name) => {
             ignored.push(Ignored::new(format!("scene={name}"), Why::NoScene));
-            (first().scene, elsewhere(&link, &mut ignored))
+            (first(), elsewhere(&link, &mut ignored))
         }
         Shared::File(name) => match live.opened().filter(|opened| file_name(&opened.scene) == name) {
-            Some(opened) => (opened.scene.clone(), link),
+            Some(opened) => (opened.clone(), link),
             None => {
                 let needs = fill(state.say(LinkText::NeedsScene), &[name]);
                 tell(state, needs);
@@ -112,7 +112,7 @@ pub fn open(state: &mut State, live: &Live, text: &str) {
             }
         },
     };
-    let opening = Opening { scene, inside: link.inside.clone(), environment: environment(&link, live.opened()) };
+    let opening = Opening { inside: link.inside.clone(), environment: environment(&link, live.opened()), ..file };
     let there = live.loading().is_none() && state.open.is_none() && live.opened() == Some(&opening);
     let awaited = Awaited::Scene(opening.clone());
     state.link.coming = Some(Coming { text: text.trim().to_owned(), link, ignored, awaited });
@@ -146,7 +146,11 @@ fn environment(link: &Link, opened: Option<&Opening>) -> Option<ChosenEnvironmen
 }
 
 fn is_file(source: &EnvironmentSource, name: &str) -> bool {
-    matches!(source, EnvironmentSource::File(path) if file_name(&path.to_string_lossy()) == name)
+    match source {
+        EnvironmentSource::Constant(_) => false,
+        EnvironmentSource::File(path) => file_name(&path.to_string_lossy()) == name,
+        EnvironmentSource::Memory(file) => file_name(&file.name) == name,
+    }
 }
 
 /// A scene is on show that was not before, or in another light: is it what a link waits for?
