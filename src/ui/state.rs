@@ -5,17 +5,21 @@ pub use super::compare::{CompareState, Mode as CompareMode, Source};
 pub use super::drawn::{Drawn, Draws, Why, Wish};
 pub use super::edit::EditState;
 pub use super::export::{ExportState, What};
+pub use super::files::{FilesState, Given, Purpose};
 pub use super::image_view::ViewState;
 pub use super::inspector::{Bars, InspectState};
+use super::link::LinkState;
 pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};
 pub use super::space::SpaceState;
 pub use super::study::StudyState;
 use super::text::{Lang, Text, Words};
+pub use super::touch::Fingers;
 pub use super::tour::Before;
 use crate::bdpt::{Existence, Settings, Strategy, StrategySet};
 use crate::engine::{Backend, Mode};
 use crate::film::tonemap::{Look, ToneMap};
 use crate::scene::environment::EnvironmentSource;
+use crate::scene::files::Files;
 use crate::scene::{Lens, Pose};
 use eframe::egui;
 
@@ -84,8 +88,10 @@ pub struct ChosenEnvironment {
 /// A scene to load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Opening {
-    /// A built-in name or a path.
+    /// A built-in name or a path; of a scene in memory, its file's name.
     pub scene: String,
+    /// The scene in memory, where it is.
+    pub files: Option<Files>,
     /// Which of the file's scenes, by name or number; `None` = its default.
     pub inside: Option<String>,
     /// `None` = the file's own.
@@ -95,7 +101,12 @@ pub struct Opening {
 impl Opening {
     /// A scene as its file has it.
     pub fn of(scene: impl Into<String>) -> Self {
-        Self { scene: scene.into(), inside: None, environment: None }
+        Self { scene: scene.into(), files: None, inside: None, environment: None }
+    }
+
+    /// Is it read from the same file?
+    pub fn same_file(&self, other: &Self) -> bool {
+        self.scene == other.scene && self.files == other.files
     }
 }
 
@@ -161,6 +172,16 @@ pub struct State {
     pub narrow: bool,
     /// Then, the 3-D view is shown.
     pub space_in_front: bool,
+    /// Is the window as small as a phone's? Found anew in every pass.
+    pub phone: bool,
+    /// Then, what shares the window with the image (`Image`: nothing does).
+    pub beside: Maximised,
+    /// Then, the menu has the room of the panels.
+    pub menu: bool,
+    /// Is it used with fingers?
+    pub touch: bool,
+    /// The fingers on it.
+    pub fingers: Fingers,
     /// Is the list of keys open?
     pub help: bool,
     /// The 3-D view.
@@ -173,6 +194,8 @@ pub struct State {
     pub checks: ChecksState,
     /// Saving.
     pub export: ExportState,
+    /// Files that come in without a path.
+    pub files: FilesState,
     /// How things were when the tour's step began.
     pub tour: Option<Before>,
     /// The inspector's own choices.
@@ -181,6 +204,10 @@ pub struct State {
     pub drawn: Option<Drawn>,
     /// What there is to say.
     pub messages: Vec<Message>,
+    /// Links: to be copied, and on their way.
+    pub link: LinkState,
+    /// How much of their room the inspector, the pyramid and the 3-D view take, thousandths; `None` = as at the first start.
+    pub shares: [Option<u32>; 3],
 }
 
 impl State {
@@ -212,16 +239,24 @@ impl State {
             maximised: Maximised::None,
             narrow: false,
             space_in_front: false,
+            phone: false,
+            beside: Maximised::Inspector,
+            menu: false,
+            touch: false,
+            fingers: Fingers::default(),
             help: false,
             space: SpaceState::default(),
             edit: EditState::default(),
             study: StudyState::default(),
             checks: ChecksState::default(),
             export: ExportState::default(),
+            files: FilesState::default(),
             tour: None,
             inspect: InspectState::default(),
             drawn: None,
             messages: Vec::new(),
+            link: LinkState::default(),
+            shares: [None; 3],
         }
     }
 
@@ -246,7 +281,7 @@ impl State {
     /// Shows a strategy's picture in the image view, and that in front of what would hide it.
     pub fn open_large(&mut self, strategy: Strategy, mode: Mode) {
         self.compare.a = Source::Strategy(strategy, mode);
-        (self.compare.flipped, self.space_in_front) = (false, false);
+        (self.compare.flipped, self.space_in_front, self.menu) = (false, false, false);
         if self.maximised != Maximised::Image {
             self.maximised = Maximised::None;
         }
@@ -256,8 +291,19 @@ impl State {
     pub fn image_on_show(&self) -> bool {
         match self.maximised {
             Maximised::Image => true,
+            Maximised::None if self.phone => !self.menu,
             Maximised::None => !(self.narrow && self.space_in_front),
             Maximised::Space | Maximised::Inspector | Maximised::Pyramid => false,
+        }
+    }
+
+    /// Can the pyramid be seen?
+    pub fn pyramid_on_show(&self) -> bool {
+        match self.maximised {
+            Maximised::Pyramid => true,
+            Maximised::None if self.phone => self.beside == Maximised::Pyramid,
+            Maximised::None => self.prefs.pyramid_open,
+            Maximised::Image | Maximised::Space | Maximised::Inspector => false,
         }
     }
 
