@@ -1,4 +1,4 @@
-//! The program: a window, or the command line.
+//! The program: a window, or the command line; in a page, a canvas.
 
 #[cfg(not(target_arch = "wasm32"))]
 fn main() -> std::process::ExitCode {
@@ -22,4 +22,6 @@ fn main() -> std::process::ExitCode {
 }
 
 #[cfg(target_arch = "wasm32")]
-fn main() {}
+fn main() {
+    bdpt_explorer::ui::run();
+}

@@ -11,7 +11,7 @@ mod thread;
 #[cfg(target_arch = "wasm32")]
 pub use page::{Bell, MaybeSend, Task, give_way, painted, spawn};
 #[cfg(not(target_arch = "wasm32"))]
-pub use thread::{Bell, MaybeSend, Task, give_way, painted, spawn};
+pub use thread::{Bell, MaybeSend, Task, block_on, give_way, painted, spawn};
 
 use std::time::Duration;
 
@@ -29,7 +29,7 @@ pub const fn slice(on_a_thread: Duration) -> Duration {
 /// # Errors
 /// If the system gives no thread.
 pub fn once(name: &str, work: impl FnOnce() + MaybeSend + 'static) -> std::io::Result<Task> {
-    spawn(name, async move {
+    spawn(name, || async move {
         painted().await;
         work();
     })
@@ -45,13 +45,13 @@ mod tests {
         let (bell, (sender, receiver)) = (Bell::default(), channel());
         bell.ring();
         let heard = bell.clone();
-        let task = spawn("test", async move {
+        let task = spawn("test", || async move {
             heard.rest(None).await;
-            drop(sender.send(1));
+            let _ = sender.send(1);
             heard.rest(None).await;
-            drop(sender.send(2));
+            let _ = sender.send(2);
             heard.rest(Some(Duration::from_millis(5))).await;
-            drop(sender.send(3));
+            let _ = sender.send(3);
         })
         .unwrap();
         let patience = Duration::from_secs(60);

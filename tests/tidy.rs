@@ -13,6 +13,7 @@ use tokens::paths_in_tokens;
 /// Outside packages and the only places that may name them (a folder, or a file, below src/).
 const HOMES: &[(&str, &[&str])] = &[
     ("ab_glyph", &["report/"]),
+    ("async_lock", &["engine/"]),
     ("clap", &["cli/"]),
     ("cpu_time", &["engine/"]),
     ("ctrlc", &["cli/"]),
@@ -26,7 +27,8 @@ const HOMES: &[(&str, &[&str])] = &[
     ("indicatif", &["cli/"]),
     ("obvhs", &["scene/bvh.rs"]),
     ("js_sys", &["task/page.rs", "ui/web.rs", "ui/web/"]),
-    ("pollster", &["engine/", "task/thread.rs"]),
+    ("pollster", &["task/thread.rs"]),
+    ("log", &["ui/web/"]),
     ("rayon", &["bdpt/", "film/", "engine.rs", "engine/", "report/check/", "scene/gltf/images.rs"]),
     ("rfd", &["ui/"]),
     ("statrs", &["engine/batches.rs", "report/check/"]),
@@ -37,7 +39,7 @@ const HOMES: &[(&str, &[&str])] = &[
     ("winit", &["ui/"]),
 ];
 /// Packages that may be used anywhere: they have no opinion on architecture.
-const FREE: &[&str] = &["bytemuck", "glam", "serde", "serde_json", "web_time"];
+const FREE: &[&str] = &["async_channel", "bytemuck", "glam", "serde", "serde_json", "web_time"];
 const TOP_LEVEL: [&str; 11] = [
     "Cargo.toml",
     "Cargo.lock",

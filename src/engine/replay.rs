@@ -4,15 +4,15 @@
 //! Both follow the same random numbers and round a little differently. Now and then a number falls on the other side of a
 //! threshold (an edge, a roulette, a choice), and the sample takes another turn: that is told.
 
-use super::device::{Prepared, prepare};
+use super::device::ready;
 use super::{Backend, Job, record};
 use crate::bdpt::PathRecord;
 use crate::bdpt::Strategy;
 use crate::gpu::{Probe, Task};
 use crate::math::Vec3;
-use pollster::block_on;
+use crate::task;
+use async_channel::{Receiver, Sender, unbounded};
 use std::collections::BTreeMap;
-use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Rounding alone stays below this part of a contribution (or of the sample's largest).
@@ -79,7 +79,7 @@ pub type Answer = Result<Comparison, String>;
 /// A sample of a job; `None`: none for now.
 type Question = Option<(Which, Job)>;
 
-/// Compares samples on a thread of its own, one at a time: what is asked for last is what counts.
+/// Compares samples by a task of its own, one at a time: what is asked for last is what counts.
 pub struct Replayer {
     asked: Option<Which>,
     questions: Sender<Question>,
@@ -87,30 +87,31 @@ pub struct Replayer {
 }
 
 impl Replayer {
-    /// Starts the thread; it ends with this value. `wake` is called when there is an answer.
+    /// Starts the task; it ends with this value. `wake` is called when there is an answer.
     pub fn new(wake: impl Fn() + Send + 'static) -> Self {
-        let (questions, inbox) = channel();
+        let (questions, inbox) = unbounded();
         let answer = Arc::new(Mutex::new(None));
         let found = Arc::clone(&answer);
-        // Without a thread no question is ever answered.
-        drop(std::thread::Builder::new().name("replay".to_owned()).spawn(move || {
+        let work = || async move {
             let mut prober = Prober::default();
-            while let Some(question) = last(&inbox) {
-                let Some((which, job)) = question else {
+            while let Ok(first) = inbox.recv().await {
+                let Some((which, job)) = last(first, &inbox) else {
                     prober.probe = None;
                     continue;
                 };
-                let answer = prober.compare(which, &job);
+                let answer = prober.compare(which, &job).await;
                 *found.lock().unwrap_or_else(PoisonError::into_inner) = Some((which, answer));
                 wake();
             }
-        }));
+        };
+        // Without a thread no question is ever answered.
+        drop(task::spawn("replay", work));
         Self { asked: None, questions, answer }
     }
 
     /// Asks about a sample of a job, once.
     pub fn ask(&mut self, which: Which, job: &Job) {
-        if self.asked != Some(which) && self.questions.send(Some((which, job.clone()))).is_ok() {
+        if self.asked != Some(which) && self.questions.try_send(Some((which, job.clone()))).is_ok() {
             self.asked = Some(which);
         }
     }
@@ -118,8 +119,8 @@ impl Replayer {
     /// Nothing is asked for now: what is kept on the device for the next question goes.
     pub fn rest(&mut self) {
         if self.asked.take().is_some() {
-            // Without a thread there is nothing to let go.
-            drop(self.questions.send(None));
+            // Without a task there is nothing to let go.
+            drop(self.questions.try_send(None));
         }
     }
 
@@ -130,10 +131,9 @@ impl Replayer {
     }
 }
 
-/// Waits for a question; of several only the last one counts.
-fn last(inbox: &Receiver<Question>) -> Option<Question> {
-    let first = inbox.recv().ok()?;
-    Some(inbox.try_iter().last().unwrap_or(first))
+/// Of several questions only the last one counts.
+fn last(first: Question, inbox: &Receiver<Question>) -> Question {
+    std::iter::from_fn(|| inbox.try_recv().ok()).last().unwrap_or(first)
 }
 
 /// A job on the device, kept from one sample to the next.
@@ -143,33 +143,28 @@ struct Prober {
 }
 
 impl Prober {
-    fn compare(&mut self, which: Which, job: &Job) -> Answer {
+    async fn compare(&mut self, which: Which, job: &Job) -> Answer {
         let here = |(generation, probe): &(u64, Probe)| *generation == which.generation && probe.gpu().check().is_ok();
         if !self.probe.as_ref().is_some_and(here) {
             // Two scenes at once may be more than the device holds.
             self.probe = None;
-            self.probe = Some((which.generation, open(job)?));
+            self.probe = Some((which.generation, open(job).await?));
         }
         let Some((_, probe)) = &self.probe else { return Err("there is no device".to_owned()) };
-        let gpu = block_on(probe.sample(which.pixel, which.sample)).map_err(|error| error.to_string())?;
+        let gpu = probe.sample(which.pixel, which.sample).await.map_err(|error| error.to_string())?;
         let record = record(job, which.pixel, which.sample).map_err(|error| error.0)?;
         Ok(Comparison::of(&gpu, &record))
     }
 }
 
 /// A job on the device.
-fn open(job: &Job) -> Result<Probe, String> {
+async fn open(job: &Job) -> Result<Probe, String> {
     // Whoever renders on a device has it opened and its kernels compiled: they come at once.
-    let prepared = prepare(&job.scene, job.backend == Backend::Gpu).recv().map_err(|_| "no device came".to_owned())?;
-    let (gpu, layouts, kernels) = match prepared {
-        Prepared::Kernels(ready) => *ready,
-        Prepared::Failed(error) => return Err(error.to_string()),
-        Prepared::Faster(_) => return Err("no device came".to_owned()),
-    };
+    let (gpu, layouts, kernels) = ready(&job.scene, job.backend == Backend::Gpu).await.map_err(|error| error.to_string())?;
     let job = Job { weighted_layers: true, raw_layers: false, crop: None, ..job.clone() };
     let (view, plan) = (job.view(), job.plan());
     let task = Task { scene: &job.scene, view: &view, settings: &job.settings, plan: &plan, crop: crate::film::Rect::full(job.size) };
-    block_on(Probe::new(&gpu, &task, (layouts, kernels))).map_err(|error| error.to_string())
+    Probe::new(&gpu, &task, (layouts, kernels)).await.map_err(|error| error.to_string())
 }
 
 #[cfg(test)]
@@ -180,7 +175,8 @@ mod tests {
     #[test]
     fn what_was_said_last_counts_and_rest_is_said_once() {
         let job = Job::new(Arc::new(builtin::open("cornell").unwrap()));
-        let (questions, inbox) = channel();
+        let (questions, inbox) = unbounded();
+        let last = || super::last(inbox.try_recv().unwrap(), &inbox);
         let mut replayer = Replayer { asked: None, questions, answer: Arc::default() };
         let which = |sample| Which { generation: 0, pixel: [8, 8], sample };
         replayer.rest();
@@ -188,12 +184,12 @@ mod tests {
         for sample in [1, 1, 2] {
             replayer.ask(which(sample), &job);
         }
-        assert_eq!(last(&inbox).unwrap().map(|(which, _)| which), Some(which(2)));
+        assert_eq!(last().map(|(which, _)| which), Some(which(2)));
         replayer.rest();
         replayer.rest();
         assert!(inbox.try_recv().unwrap().is_none() && inbox.try_recv().is_err());
         replayer.ask(which(2), &job);
-        assert_eq!(last(&inbox).unwrap().map(|(which, _)| which), Some(which(2)), "asked again after a rest");
+        assert_eq!(last().map(|(which, _)| which), Some(which(2)), "asked again after a rest");
     }
 
     #[test]

@@ -4,7 +4,7 @@
 //! kernels are compiled, and the CPU goes on again where the GPU cannot.
 
 use super::cpu::CpuWork;
-use super::device::{Prepared, prepare};
+use super::device::{Prepared, Preparing, prepare};
 use super::stats::{cpu_name, cpu_time, peak_memory};
 use super::{Backend, Crop, Job, JobError, Notice, Stats};
 use crate::bdpt::context::Context;
@@ -14,8 +14,9 @@ use crate::film::Film;
 use crate::gpu::{GpuError, Kernels, Layouts, Renderer, Task};
 use crate::math::Vec3;
 use crate::scene::View;
-use pollster::block_on;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
+#[cfg(not(target_arch = "wasm32"))]
+use crate::task::block_on;
+use std::sync::mpsc::TryRecvError;
 use std::time::Duration;
 use web_time::Instant;
 
@@ -45,7 +46,7 @@ pub struct Session {
     quantum: f32,
     worker: Worker,
     /// What the GPU is being prepared with.
-    preparing: Option<Receiver<Prepared>>,
+    preparing: Option<Preparing>,
     for_window: bool,
     /// No pass from this one on is rendered.
     limit: u32,
@@ -98,11 +99,25 @@ impl Session {
         };
     }
 
-    /// Waits until it is decided who renders; before the first pass, so that all passes are rendered by the same.
+    /// Waits until it is decided who renders; before the first pass, so that all passes are rendered by the same. (Where there
+    /// are threads, as all that waits.)
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn wait_for_renderer(&mut self) {
         while self.preparing.is_some() && matches!(self.worker, Worker::Cpu(_)) && self.pass_fraction() == 0.0 {
-            self.look_at_preparations(Duration::from_secs(1));
+            block_on(self.look_at_preparations(Duration::from_secs(1)));
         }
+    }
+
+    /// [`Session::advance`], for who waits.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn step(&mut self, budget: Duration) {
+        block_on(self.advance(budget));
+    }
+
+    /// [`Session::gather`], for who waits.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn collect(&mut self) {
+        block_on(self.gather());
     }
 
     /// No more than so many passes are rendered.
@@ -112,9 +127,9 @@ impl Session {
 
     /// Renders for about `budget`: the CPU at most to the end of the current pass, the GPU to the end of the last one that is
     /// wanted.
-    pub fn step(&mut self, budget: Duration) {
+    pub async fn advance(&mut self, budget: Duration) {
         let (start, cpu) = (Instant::now(), cpu_time());
-        self.look_at_preparations(Duration::ZERO);
+        self.look_at_preparations(Duration::ZERO).await;
         match &mut self.worker {
             Worker::Cpu(work) if work.pass < self.limit => {
                 let counts = work.step(&self.job, &self.view, &self.plan, &mut self.film, budget);
@@ -122,12 +137,12 @@ impl Session {
             }
             Worker::Cpu(_) => {}
             Worker::Gpu(renderer) => {
-                let stepped = block_on(renderer.step(budget, self.limit));
+                let stepped = renderer.step(budget, self.limit).await;
                 let full = renderer.is_full();
                 if let Err(error) = stepped {
                     self.gpu_failed(&error);
                 } else if full {
-                    self.bring_in();
+                    self.bring_in().await;
                 }
             }
         }
@@ -136,37 +151,29 @@ impl Session {
     }
 
     /// Brings everything rendered so far into the film: before someone looks at it.
-    pub fn collect(&mut self) {
+    pub async fn gather(&mut self) {
         let (start, cpu) = (Instant::now(), cpu_time());
-        self.bring_in();
+        self.bring_in().await;
         self.elapsed += start.elapsed();
         self.cpu += cpu_time().saturating_sub(cpu);
     }
 
-    fn bring_in(&mut self) {
+    async fn bring_in(&mut self) {
         let Worker::Gpu(renderer) = &mut self.worker else { return };
-        match block_on(renderer.collect(&mut self.film)) {
+        match renderer.collect(&mut self.film).await {
             Ok(counts) => self.counts = self.counts.plus(counts),
             Err(error) => self.gpu_failed(&error),
         }
     }
 
     /// Takes what is ready; `patience`: how long to wait for it.
-    pub(super) fn look_at_preparations(&mut self, patience: Duration) {
+    pub(super) async fn look_at_preparations(&mut self, patience: Duration) {
         let Some(preparing) = &self.preparing else { return };
         let between_passes = self.pass_fraction() == 0.0;
         if matches!(self.worker, Worker::Cpu(_)) && !between_passes {
             return;
         }
-        // A page has no clock to wait by, and need not wait.
-        let ready = match preparing.try_recv() {
-            Err(TryRecvError::Empty) if !patience.is_zero() => preparing.recv_timeout(patience).map_err(|error| match error {
-                RecvTimeoutError::Timeout => TryRecvError::Empty,
-                RecvTimeoutError::Disconnected => TryRecvError::Disconnected,
-            }),
-            ready => ready,
-        };
-        match ready {
+        match preparing.next(patience).await {
             Err(TryRecvError::Empty) => {}
             Err(TryRecvError::Disconnected) => self.preparing = None,
             Ok(Prepared::Failed(error)) => self.gpu_failed(&error),
@@ -179,7 +186,7 @@ impl Session {
             Ok(Prepared::Kernels(ready)) => {
                 let (gpu, layouts, kernels) = *ready;
                 let slice = if self.for_window { WINDOW_SLICES[usize::from(gpu.is_software())] } else { HEADLESS_SLICE };
-                match self.renderer(&gpu, (layouts, kernels), slice) {
+                match self.renderer(&gpu, (layouts, kernels), slice).await {
                     Ok(renderer) => self.worker = Worker::Gpu(Box::new(renderer)),
                     Err(error) => {
                         self.preparing = None;
@@ -190,10 +197,10 @@ impl Session {
         }
     }
 
-    fn renderer(&self, gpu: &crate::gpu::Gpu, kernels: (Layouts, Kernels), slice: Duration) -> Result<Renderer, GpuError> {
+    async fn renderer(&self, gpu: &crate::gpu::Gpu, kernels: (Layouts, Kernels), slice: Duration) -> Result<Renderer, GpuError> {
         let crop = self.job.crop.unwrap_or(Crop::full(self.job.size));
         let task = Task { scene: &self.job.scene, view: &self.view, settings: &self.job.settings, plan: &self.plan, crop };
-        let mut renderer = block_on(Renderer::with_kernels(gpu, &task, kernels, self.quantum, slice))?;
+        let mut renderer = Renderer::with_kernels(gpu, &task, kernels, self.quantum, slice).await?;
         renderer.start_at(self.passes());
         Ok(renderer)
     }

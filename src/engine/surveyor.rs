@@ -1,4 +1,4 @@
-//! Surveys the job that is rendered, on a thread of its own, at one core's pace, and only while somebody looks: a survey runs the
+//! Surveys the job that is rendered, as a task of its own, at one core's pace, and only while somebody looks: a survey runs the
 //! renderer's samples again, from sample 0 (see [`crate::bdpt::survey`]).
 
 use super::Job;
@@ -8,16 +8,16 @@ use crate::bdpt::context::Context;
 use crate::bdpt::render::Plan;
 use crate::bdpt::survey::{Survey, pixel_outcomes};
 use crate::scene::View;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError, channel};
+use crate::task::{self, Bell, Task};
+use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::thread::JoinHandle;
 use std::time::Duration;
 use web_time::Instant;
 
 /// Most bytes that the sums may take; beyond them they are taken over blocks of pixels.
 const BUDGET: usize = if cfg!(target_arch = "wasm32") { 256 << 20 } else { 1 << 30 };
-/// How long the thread counts before it looks for commands.
-const SLICE: Duration = Duration::from_millis(20);
+/// How long the task counts before it looks for commands.
+const SLICE: Duration = task::slice(Duration::from_millis(20));
 /// Sums that nobody has looked at in this time are let go.
 const PATIENCE: Duration = Duration::from_secs(3);
 /// Samples of a pixel whose outcomes are counted.
@@ -35,21 +35,24 @@ enum Command {
 
 type Shown = Arc<Mutex<Option<Arc<Study>>>>;
 
-/// The thread's handle. Dropping it stops the thread.
+/// The task's handle. Dropping it stops the task.
 pub(super) struct Surveyor {
     commands: Sender<Command>,
+    bell: Bell,
     shown: Shown,
-    thread: Option<JoinHandle<()>>,
+    task: Option<Task>,
 }
 
 impl Surveyor {
-    /// Starts the thread, which waits until something is wished for.
+    /// Starts the task, which waits until something is wished for.
     pub fn start(job: Job, gallery: Arc<Gallery>, wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
         let ((commands, inbox), shown) = (channel(), Shown::default());
         let worker =
             Worker { work: Work::new(job, 0, None), wish: Wish::default(), unseen: None, gallery, shown: Arc::clone(&shown), wake };
-        let thread = std::thread::Builder::new().name("survey".to_owned()).spawn(move || worker.run(&inbox))?;
-        Ok(Self { commands, shown, thread: Some(thread) })
+        let bell = Bell::default();
+        let heard = bell.clone();
+        let task = task::spawn("survey", || worker.run(inbox, heard))?;
+        Ok(Self { commands, bell, shown, task: Some(task) })
     }
 
     /// From now on, another job.
@@ -73,16 +76,17 @@ impl Surveyor {
     }
 
     fn send(&self, command: Command) {
-        // The thread lives as long as this handle.
+        // The task lives as long as this handle.
         drop(self.commands.send(command));
+        self.bell.ring();
     }
 }
 
 impl Drop for Surveyor {
     fn drop(&mut self) {
         self.send(Command::Stop);
-        if let Some(thread) = self.thread.take() {
-            drop(thread.join());
+        if let Some(task) = self.task.take() {
+            task.join();
         }
     }
 }
@@ -167,14 +171,18 @@ struct Worker {
 }
 
 impl Worker {
-    fn run(mut self, inbox: &Receiver<Command>) {
+    async fn run(mut self, inbox: Receiver<Command>, bell: Bell) {
         let mut next_look = Instant::now();
         let mut idle = true;
         loop {
-            // All commands that have come; with nothing to do it sleeps until one does.
+            task::give_way().await;
+            // With nothing to do it rests until a command comes, or until sums are to be let go.
+            if std::mem::take(&mut idle) {
+                bell.rest(self.unseen.map(|since| PATIENCE.saturating_sub(since.elapsed()))).await;
+            }
             let mut changed = false;
             loop {
-                match if idle && !changed { self.sleep(inbox) } else { inbox.try_recv() } {
+                match inbox.try_recv() {
                     Ok(Command::Stop) | Err(TryRecvError::Disconnected) => return,
                     Ok(Command::Restart(job, generation)) => self.work = Work::new(*job, generation, self.work.survey.take()),
                     Ok(Command::Wish(wish)) => self.wish = wish,
@@ -202,15 +210,6 @@ impl Worker {
                 next_look = Instant::now() + (began.elapsed() * 4).clamp(Duration::from_millis(100), Duration::from_secs(10));
             }
         }
-    }
-
-    /// Waits for a command, or until sums are to be let go.
-    fn sleep(&self, inbox: &Receiver<Command>) -> Result<Command, TryRecvError> {
-        let Some(since) = self.unseen else { return inbox.recv().map_err(|_| TryRecvError::Disconnected) };
-        inbox.recv_timeout(PATIENCE.saturating_sub(since.elapsed())).map_err(|error| match error {
-            RecvTimeoutError::Timeout => TryRecvError::Empty,
-            RecvTimeoutError::Disconnected => TryRecvError::Disconnected,
-        })
     }
 
     /// Lets sums go that nobody has looked at in a while: they may be large.

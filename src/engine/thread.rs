@@ -1,4 +1,4 @@
-//! A session on a thread of its own, for a window: commands go in, frames come out, and nobody waits.
+//! A session as a task of its own, for a window: commands go in, frames come out, and nobody waits.
 
 use super::batches::Batches;
 use super::frame::{Frame, make_frame, make_picture};
@@ -7,14 +7,16 @@ use super::study::{Study, Wish};
 use super::surveyor::Surveyor;
 use super::{Intervals, Job, JobError, Session};
 use crate::bdpt::StrategySet;
-use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use crate::task::{self, Task};
+use async_channel::TryRecvError;
 use std::sync::{Arc, Mutex, PoisonError};
-use std::thread::JoinHandle;
 use std::time::Duration;
 use web_time::Instant;
 
-/// How long the thread renders before it looks for commands.
-const SLICE: Duration = Duration::from_millis(30);
+/// How long the task renders before it looks for commands.
+const SLICE: Duration = task::slice(Duration::from_millis(30));
+/// Frames come at least this often, unless making one takes longer than a fifth of it.
+const RARELY: Duration = Duration::from_millis(if task::THREADS { 250 } else { 1000 });
 
 /// Every strategy's image at full size, for a file.
 #[derive(Clone, Debug)]
@@ -35,31 +37,31 @@ enum Command {
     Pixel([u32; 2]),
     /// Somebody looks at another picture.
     Look,
-    Layers(Sender<Layers>),
+    Layers(async_channel::Sender<Layers>),
     Stop,
 }
 
-/// A session on a thread of its own. Dropping it stops the thread.
+/// A session as a task of its own. Dropping it stops the task.
 pub struct Engine {
     job: Job,
     generation: u64,
     hidden: StrategySet,
     paused: bool,
     pixel: [u32; 2],
-    commands: Sender<Command>,
+    commands: async_channel::Sender<Command>,
     frame: Arc<Mutex<Option<Arc<Frame>>>>,
     gallery: Arc<Gallery>,
     surveyor: Surveyor,
     wish: Wish,
-    thread: Option<JoinHandle<()>>,
+    task: Option<Task>,
 }
 
 impl Engine {
-    /// Starts rendering. `wake` is called, from the render thread, whenever a new frame is ready.
+    /// Starts rendering. `wake` is called, by the render task, whenever a new frame is ready.
     pub fn start(job: Job, wake: impl Fn() + Send + Sync + 'static) -> Result<Self, JobError> {
         let job = Job { weighted_layers: true, ..job };
         let session = Session::for_window(job.clone())?;
-        let (commands, inbox) = channel();
+        let (commands, inbox) = async_channel::unbounded();
         let frame = Arc::new(Mutex::new(None));
         let gallery = Arc::new(Gallery::default());
         let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
@@ -77,12 +79,12 @@ impl Engine {
             gallery: Arc::clone(&gallery),
             wake,
         };
-        let thread = std::thread::Builder::new().name("render".to_owned()).spawn(move || worker.run(&inbox)).map_err(no_thread)?;
+        let task = task::spawn("render", || worker.run(inbox)).map_err(no_thread)?;
         let (hidden, paused, wish) = (StrategySet::NONE, false, Wish::default());
-        Ok(Self { job, generation: 0, hidden, paused, pixel: [0; 2], commands, frame, gallery, surveyor, wish, thread: Some(thread) })
+        Ok(Self { job, generation: 0, hidden, paused, pixel: [0; 2], commands, frame, gallery, surveyor, wish, task: Some(task) })
     }
 
-    /// Renders something else from now on. On an error the old job goes on. The new film is made by the thread: the caller,
+    /// Renders something else from now on. On an error the old job goes on. The new film is made by the task: the caller,
     /// who may be dragging a slider, does not wait for it.
     pub fn restart(&mut self, job: Job) -> Result<(), JobError> {
         let job = Job { weighted_layers: true, ..job };
@@ -164,24 +166,24 @@ impl Engine {
         &self.job
     }
 
-    /// Asks for every strategy's image; the render thread answers at its next look for commands.
-    pub fn layers(&self) -> Receiver<Layers> {
-        let (sender, answer) = channel();
+    /// Asks for every strategy's image; the render task answers at its next look for commands.
+    pub fn layers(&self) -> async_channel::Receiver<Layers> {
+        let (sender, answer) = async_channel::bounded(1);
         self.send(Command::Layers(sender));
         answer
     }
 
     fn send(&self, command: Command) {
-        // The thread lives as long as this handle; were it gone, there would be nothing left to tell it.
-        drop(self.commands.send(command));
+        // The task lives as long as this handle; were it gone, there would be nothing left to tell it.
+        drop(self.commands.try_send(command));
     }
 }
 
 impl Drop for Engine {
     fn drop(&mut self) {
         self.send(Command::Stop);
-        if let Some(thread) = self.thread.take() {
-            drop(thread.join());
+        if let Some(task) = self.task.take() {
+            task.join();
         }
     }
 }
@@ -200,15 +202,16 @@ struct Worker {
 }
 
 impl Worker {
-    fn run(mut self, inbox: &Receiver<Command>) {
+    async fn run(mut self, inbox: async_channel::Receiver<Command>) {
         let mut next_frame = Instant::now();
         loop {
-            // All commands that have come; a paused thread sleeps until one does. Of several restarts only the last one counts.
+            task::give_way().await;
+            // All commands that have come; a paused task rests until one does. Of several restarts only the last one counts.
             let (mut changed, mut restart, mut asked) = (false, None, Vec::new());
             loop {
-                let command = if self.paused && !changed { inbox.recv().map_err(|_| TryRecvError::Disconnected) } else { inbox.try_recv() };
+                let command = if self.paused && !changed { inbox.recv().await.map_err(|_| TryRecvError::Closed) } else { inbox.try_recv() };
                 match command {
-                    Ok(Command::Stop) | Err(TryRecvError::Disconnected) => return,
+                    Ok(Command::Stop) | Err(TryRecvError::Closed) => return,
                     Ok(Command::Restart(job, generation)) => restart = Some((*job, generation)),
                     Ok(Command::Hide(hidden)) => self.hidden = *hidden,
                     Ok(Command::Pause(paused)) => self.paused = paused,
@@ -221,49 +224,49 @@ impl Worker {
             }
             let restarted = restart.is_some();
             if let Some((job, generation)) = restart {
-                self.restart(job, generation);
+                self.restart(job, generation).await;
             }
             for sender in asked {
                 // Who asked may have gone away meanwhile.
-                drop(sender.send(self.layers()));
+                drop(sender.try_send(self.layers().await));
             }
             // The first look at something new should not be empty, and a restart has seen to that.
             if !self.paused && !restarted {
                 // A batch that is due ends with this pass.
                 let next = self.session.passes().saturating_add(1);
                 self.session.set_limit(if self.batches.is_due(next) { next } else { u32::MAX });
-                self.session.step(SLICE);
+                self.session.advance(SLICE).await;
             }
-            self.end_batch();
+            self.end_batch().await;
             if changed || Instant::now() >= next_frame {
                 let began = Instant::now();
-                self.publish();
+                self.publish().await;
                 // A frame costs time too: at most a fifth of it, at least four frames a second.
-                next_frame = Instant::now() + (began.elapsed() * 4).clamp(Duration::from_millis(50), Duration::from_millis(250));
+                next_frame = Instant::now() + (began.elapsed() * 4).clamp(Duration::from_millis(50), RARELY);
             }
         }
     }
 
-    fn restart(&mut self, job: Job, generation: u64) {
+    async fn restart(&mut self, job: Job, generation: u64) {
         // It was checked when it was sent.
         if let Ok(session) = Session::for_window(job) {
             (self.session, self.generation) = (session, generation);
             (self.batches, self.intervals) = (Batches::new(self.hidden), None);
             // Kernels that are compiled already come at once: then the first picture need not be the CPU's.
-            self.session.look_at_preparations(SLICE);
-            self.session.step(SLICE);
+            self.session.look_at_preparations(SLICE).await;
+            self.session.advance(SLICE).await;
         }
     }
 
     /// Between two passes, a batch may end.
-    fn end_batch(&mut self) {
+    async fn end_batch(&mut self) {
         if self.batches.hidden() != self.hidden {
             (self.batches, self.intervals) = (Batches::new(self.hidden), None);
         }
         if self.session.pass_fraction() != 0.0 || !self.batches.is_due(self.session.passes()) {
             return;
         }
-        self.session.collect();
+        self.session.gather().await;
         if let Some(passes) = self.session.whole_passes() {
             let whole = self.hidden == StrategySet::NONE;
             let image = if whole { self.session.image() } else { self.session.image_without(&self.hidden) };
@@ -272,8 +275,8 @@ impl Worker {
         }
     }
 
-    fn layers(&mut self) -> Layers {
-        self.session.collect();
+    async fn layers(&mut self) -> Layers {
+        self.session.gather().await;
         let session = &self.session;
         let kinds = [("raw", false), ("weighted", true)].into_iter();
         let pairs = kinds.flat_map(|kind| session.layers().into_iter().map(move |x| (kind, x)));
@@ -281,8 +284,8 @@ impl Worker {
         Layers { generation: self.generation, size: session.job().size, layers: layers.collect() }
     }
 
-    fn publish(&mut self) {
-        self.session.collect();
+    async fn publish(&mut self) {
+        self.session.gather().await;
         let mut frame = make_frame(&self.session, self.generation, self.hidden, self.pixel);
         frame.intervals = self.intervals.clone();
         let frame = Arc::new(frame);

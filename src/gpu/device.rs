@@ -3,8 +3,10 @@
 //! It is a device of its own, beside the one the window draws with: neither can take the other down.
 
 use super::GpuError;
+use crate::task::{self, Bell};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 /// Storage bindings that one kernel uses: the least that WebGPU promises.
 const STORAGE_BUFFERS: u32 = 8;
@@ -102,8 +104,12 @@ impl Gpu {
         Arc::ptr_eq(&self.mishaps, &other.mishaps)
     }
 
-    /// Waits for a submission, or for all.
-    pub(super) fn wait(&self, submission_index: Option<wgpu::SubmissionIndex>) -> Result<(), GpuError> {
+    /// Waits for a submission, or for all; in a page until `bell`, which is to be rung when it is done, rings, but not for long.
+    pub(super) async fn wait(&self, submission_index: Option<wgpu::SubmissionIndex>, bell: &Bell) -> Result<(), GpuError> {
+        if !task::THREADS {
+            bell.rest(Some(Duration::from_millis(500))).await;
+            return self.check();
+        }
         let polled = self.device.poll(wgpu::PollType::Wait { submission_index, timeout: None });
         if let Err(error) = polled {
             // A device that cannot be waited for has dropped its work, and may tell so later.

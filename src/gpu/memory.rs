@@ -6,6 +6,7 @@ use super::scene::SceneBuffers;
 use super::tiles::{Need, Tiles};
 use super::{Gpu, GpuError, HEADER};
 use crate::bdpt::Vertex;
+use crate::task::{self, Bell};
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -107,18 +108,21 @@ impl Memory {
             encoder.clear_buffer(buffer, part.start, Some(size));
         }
         gpu.queue.submit([encoder.finish()]);
-        let mapped = Arc::new(Mutex::new(None));
-        let result = Arc::clone(&mapped);
+        let (mapped, bell) = (Arc::new(Mutex::new(None)), Bell::default());
+        let (result, rope) = (Arc::clone(&mapped), bell.clone());
         self.staging.map_async(wgpu::MapMode::Read, 0..size, move |outcome| {
             *result.lock().unwrap_or_else(PoisonError::into_inner) = Some(outcome);
+            rope.ring();
         });
         // Another thread that polls the device may be the one that calls back, a little later.
         let outcome = loop {
-            gpu.wait(None)?;
+            gpu.wait(None, &bell).await?;
             if let Some(outcome) = mapped.lock().unwrap_or_else(PoisonError::into_inner).take() {
                 break outcome;
             }
-            std::thread::yield_now();
+            if task::THREADS {
+                std::thread::yield_now();
+            }
         };
         outcome.map_err(|error| GpuError::Refused(error.to_string()))?;
         let view = self.staging.get_mapped_range(0..size).map_err(|error| GpuError::Refused(error.to_string()))?;

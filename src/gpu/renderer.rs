@@ -8,6 +8,7 @@ use super::tiles::{FILM_BUDGET, Need, Tiles, rows_of};
 use super::{Gpu, GpuError, HEADER};
 use crate::bdpt::render::Counts;
 use crate::film::Film;
+use crate::task::{self, Bell};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -30,6 +31,7 @@ struct InFlight {
     batches: usize,
     began: Instant,
     done: Done,
+    bell: Bell,
     index: wgpu::SubmissionIndex,
 }
 
@@ -205,12 +207,13 @@ impl Renderer {
         self.gpu.queue.write_buffer(&self.memory.control, 0, &bytes);
         let began = Instant::now();
         let index = self.gpu.queue.submit([encoder.finish()]);
-        let done = Done::default();
-        let ended = Arc::clone(&done);
+        let (done, bell) = (Done::default(), Bell::default());
+        let (ended, rope) = (Arc::clone(&done), bell.clone());
         self.gpu.queue.on_submitted_work_done(move || {
             *ended.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
+            rope.ring();
         });
-        self.in_flight.push_back(InFlight { pairs, batches, began, done, index });
+        self.in_flight.push_back(InFlight { pairs, batches, began, done, bell, index });
         Ok(())
     }
 
@@ -257,8 +260,14 @@ impl Renderer {
     /// Waits for the oldest submission.
     async fn wait(&mut self) -> Result<(), GpuError> {
         let Some(oldest) = self.in_flight.pop_front() else { return Ok(()) };
-        self.gpu.wait(Some(oldest.index))?;
-        let ended = oldest.done.lock().unwrap_or_else(PoisonError::into_inner).unwrap_or_else(Instant::now);
+        let ended = loop {
+            self.gpu.wait(Some(oldest.index.clone()), &oldest.bell).await?;
+            let ended = *oldest.done.lock().unwrap_or_else(PoisonError::into_inner);
+            // A thread that was woken by the device may hear of it a little earlier.
+            if ended.is_some() || task::THREADS {
+                break ended.unwrap_or_else(Instant::now);
+            }
+        };
         let seconds = ended.saturating_duration_since(oldest.began).as_secs_f64().max(1e-6);
         // The next one has been waiting for this one: its own time begins now.
         if let Some(next) = self.in_flight.front_mut() {

@@ -25,6 +25,8 @@ use crate::bdpt::path::FullPath;
 use crate::bdpt::{Strategy, Vertex};
 use crate::engine::Job;
 use crate::rng::SampleId;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::task::block_on;
 use serde::{Serialize, Serializer};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::Duration;
@@ -324,8 +326,14 @@ pub enum Event {
     Done(CheckResult),
 }
 
-/// Runs checks one after the other. After `cancel` is set, the one that runs is given up, and the results are those of the ones before.
+/// [`go_through`], for who waits.
+#[cfg(not(target_arch = "wasm32"))]
 pub fn run(job: &Job, wanted: &Wanted, tell: &mut dyn FnMut(Event), cancel: &AtomicBool) -> Vec<CheckResult> {
+    block_on(go_through(job, wanted, tell, cancel))
+}
+
+/// Runs checks one after the other. After `cancel` is set, the one that runs is given up, and the results are those of the ones before.
+pub async fn go_through(job: &Job, wanted: &Wanted, tell: &mut dyn FnMut(Event), cancel: &AtomicBool) -> Vec<CheckResult> {
     let mut results = Vec::new();
     for &check in &wanted.checks {
         tell(Event::Progress(check, 0.0));
@@ -334,12 +342,12 @@ pub fn run(job: &Job, wanted: &Wanted, tell: &mut dyn FnMut(Event), cancel: &Ato
         let (budget, control) = (check.budget(wanted.effort), wanted.control);
         let mut task = Task { job, view: job.view(), budget, control, cancel, tell: &mut progress };
         let result = match check {
-            Check::Replay => replay::check(&mut task),
-            Check::Pairwise => pairwise::check(&mut task),
-            Check::Furnace => furnace::check(&mut task),
-            Check::Integrators => integrators::check(&mut task),
-            Check::Finite => finite::check(&mut task),
-            Check::Gpu => gpu::check(&mut task, wanted.effort),
+            Check::Replay => replay::check(&mut task).await,
+            Check::Pairwise => pairwise::check(&mut task).await,
+            Check::Furnace => furnace::check(&mut task).await,
+            Check::Integrators => integrators::check(&mut task).await,
+            Check::Finite => finite::check(&mut task).await,
+            Check::Gpu => gpu::check(&mut task, wanted.effort).await,
         };
         if cancel.load(Relaxed) {
             break;

@@ -1,10 +1,9 @@
 //! Tasks in a page: each goes on in a turn of the browser's event loop, and none while the page is hidden.
 
 use js_sys::{Function, Promise};
-use std::cell::RefCell;
 use std::future::{Future, poll_fn};
 use std::pin::pin;
-use std::rc::Rc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::task::{Poll, Waker};
 use std::time::Duration;
 use wasm_bindgen::JsValue;
@@ -27,12 +26,12 @@ impl Task {
     pub fn join(self) {}
 }
 
-/// Starts work.
+/// Starts work: the future that `work` makes.
 ///
 /// # Errors
 /// Never.
-pub fn spawn(_name: &str, work: impl Future<Output = ()> + 'static) -> std::io::Result<Task> {
-    spawn_local(work);
+pub fn spawn<F: Future<Output = ()> + 'static>(_name: &str, work: impl FnOnce() -> F + MaybeSend + 'static) -> std::io::Result<Task> {
+    spawn_local(work());
     Ok(Task(()))
 }
 
@@ -87,19 +86,26 @@ fn hidden() -> bool {
 
 /// Wakes work that rests.
 #[derive(Clone, Debug, Default)]
-pub struct Bell(Rc<RefCell<(bool, Option<Waker>)>>);
+pub struct Bell(Arc<Mutex<Rope>>);
+
+/// Has it been rung, and who rests?
+type Rope = (bool, Option<Waker>);
 
 impl Bell {
     /// Ends the rest, or the next one.
     pub fn ring(&self) {
         let waker = {
-            let mut bell = self.0.borrow_mut();
+            let mut bell = self.rope();
             bell.0 = true;
             bell.1.take()
         };
         if let Some(waker) = waker {
             waker.wake();
         }
+    }
+
+    fn rope(&self) -> MutexGuard<'_, Rope> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Rests until the bell rings, or for so long.
@@ -111,7 +117,7 @@ impl Bell {
             }
         });
         poll_fn(|context| {
-            let mut bell = self.0.borrow_mut();
+            let mut bell = self.rope();
             if std::mem::take(&mut bell.0) {
                 return Poll::Ready(());
             }

@@ -1,5 +1,6 @@
 //! Tasks where there are threads.
 
+pub use pollster::block_on;
 use std::future::{Future, ready};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
@@ -20,12 +21,12 @@ impl Task {
     }
 }
 
-/// Starts work.
+/// Starts work: the future that `work` makes, on its own thread.
 ///
 /// # Errors
 /// If the system gives no thread.
-pub fn spawn(name: &str, work: impl Future<Output = ()> + MaybeSend + 'static) -> std::io::Result<Task> {
-    std::thread::Builder::new().name(name.to_owned()).spawn(move || pollster::block_on(work)).map(Task)
+pub fn spawn<F: Future<Output = ()>>(name: &str, work: impl FnOnce() -> F + MaybeSend + 'static) -> std::io::Result<Task> {
+    std::thread::Builder::new().name(name.to_owned()).spawn(move || block_on(work())).map(Task)
 }
 
 /// Lets others go on for a moment.

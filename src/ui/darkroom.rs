@@ -1,4 +1,4 @@
-//! The image view's pictures as textures: developed on a thread of their own, and only when a picture or the way it is shown has
+//! The image view's pictures as textures: developed by a task of their own, and only when a picture or the way it is shown has
 //! changed; until a new print is ready the old one stays.
 
 use super::compare::{Content, Display, Pair, Source, Sourced, Value};
@@ -8,8 +8,9 @@ use crate::film::difference::{Figures, Metric, figures};
 use crate::film::scale::Scale;
 use crate::film::tonemap::Look;
 use crate::math::Vec3;
+use crate::task;
 use eframe::egui::{self, Color32, ColorImage, TextureFilter, TextureHandle, TextureId, TextureOptions};
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, channel};
 
 /// What is no number: found in no scale, and in few pictures.
 const MARK: Color32 = Color32::from_rgb(0xff, 0x00, 0xff);
@@ -127,28 +128,31 @@ pub struct Print {
     pub figures: Option<Figures>,
 }
 
-/// The view's pictures, and the thread that develops them.
+/// The view's pictures, and the task that develops them.
 pub struct Darkroom {
     slots: [Slot; 3],
-    orders: Sender<Order>,
+    orders: async_channel::Sender<Order>,
     ready: Receiver<Ready>,
 }
 
 impl Darkroom {
-    /// Starts the thread; it ends with this value.
+    /// Starts the task; it ends with this value.
     pub fn new(ctx: &egui::Context) -> Self {
-        let (orders, inbox) = channel::<Order>();
+        let (orders, inbox) = async_channel::unbounded::<Order>();
         let (outbox, ready) = channel();
         let ctx = ctx.clone();
-        std::thread::spawn(move || {
-            for Order { place, key, contents } in inbox {
+        let work = || async move {
+            while let Ok(Order { place, key, contents }) = inbox.recv().await {
+                task::give_way().await;
                 let developed = develop(&contents, key.recipe);
                 if outbox.send(Ready { place, key, developed }).is_err() {
                     return;
                 }
                 ctx.request_repaint();
             }
-        });
+        };
+        // Without a thread there are no pictures.
+        drop(task::spawn("pictures", work));
         Self { slots: Default::default(), orders, ready }
     }
 
@@ -190,7 +194,7 @@ impl Darkroom {
         // One at a time: what has become stale meanwhile is never made.
         if slot.asked.as_ref() != Some(&key) && slot.asked == slot.shown {
             let order = Order { place, key: key.clone(), contents: found.iter().map(|x| x.content.clone()).collect() };
-            if self.orders.send(order).is_ok() {
+            if self.orders.try_send(order).is_ok() {
                 slot.asked = Some(key);
             }
         }

@@ -5,9 +5,9 @@ mod shown;
 
 use super::checks::Runner;
 use super::compare::Pair;
-use super::edit::dialog::Dialog;
 use super::edit::reload::Reload;
 use super::export::{Saver, Sources};
+use super::files::Intake;
 use super::inspector;
 use super::link;
 use super::loader::Loader;
@@ -55,7 +55,7 @@ pub struct Live {
     /// Follows the file of the scene on show, and of the one being loaded.
     reload: Reload,
     reading: Reload,
-    dialog: Dialog,
+    intake: Intake,
     engine: Option<Engine>,
     /// The scene to show, and the one the engine accepted last.
     shown: Option<Shown>,
@@ -86,7 +86,7 @@ impl Live {
             loader: Loader::new(wake),
             reload: Reload::default(),
             reading: Reload::default(),
-            dialog: Dialog::default(),
+            intake: Intake::new(wake),
             engine: None,
             shown: None,
             running: None,
@@ -177,6 +177,11 @@ impl Live {
     /// How far it is, in a sentence; that nothing is loaded, if so.
     pub fn loading_text(&self, state: &State) -> String {
         self.loader.sentence(state)
+    }
+
+    /// Where files come in.
+    pub fn intake(&self) -> &Intake {
+        &self.intake
     }
 
     /// What is rendered, or about to be: a change to it starts from here.
@@ -281,14 +286,14 @@ impl Live {
         let current = self.engine.as_ref().map(Engine::job);
         let same_but_for_dragging = current.is_some_and(|job| {
             self.running.as_ref().is_some_and(|old| Arc::ptr_eq(&old.file, &shown.file))
-                && (job.camera, job.size, job.settings, job.backend) == (state.camera, state.size, state.settings, state.prefs.backend)
+                && (job.camera, job.size, job.settings, job.backend) == (state.camera, state.size, state.settings, state.backend())
                 && !state.restart
         });
         let undragged = |job: &Job| (job.pose, job.lens) == (state.pose, state.lens) && Arc::ptr_eq(&job.scene, &shown.scene);
         if same_but_for_dragging && (current.is_some_and(undragged) || self.picture_is_coming()) {
             return false;
         }
-        let moved = self.running.as_ref().is_some_and(|old| old.opening.scene != shown.opening.scene);
+        let moved = self.running.as_ref().is_some_and(|old| !old.opening.same_file(&shown.opening));
         state.restart = false;
         let job = Job {
             camera: state.camera,
@@ -297,7 +302,7 @@ impl Live {
             size: state.size,
             settings: state.settings,
             weighted_layers: true,
-            backend: state.prefs.backend,
+            backend: state.backend(),
             ..Job::new(shown.scene.clone())
         };
         let result = match &mut self.engine {
@@ -317,7 +322,9 @@ impl Live {
                 if let Some(job) = self.engine.as_ref().map(Engine::job) {
                     state.resize(job.size);
                     (state.settings, state.camera, state.pose, state.lens) = (job.settings, job.camera, job.pose, job.lens);
-                    state.prefs.backend = job.backend;
+                    if state.backend() != job.backend {
+                        state.choose_backend(job.backend);
+                    }
                 }
                 state.tell(true, error.0);
                 self.shown = self.running.clone();

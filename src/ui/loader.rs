@@ -1,17 +1,18 @@
-//! Loads scenes on a thread of their own, one at a time: what is asked for last is what counts.
+//! Loads scenes by a task of their own, one at a time: what is asked for last is what counts.
 
 use super::state::{Opening, State};
 use super::text::{Text, fill};
 use super::wake::Wake;
 use crate::scene::progress::Stage;
 use crate::scene::{Overrides, Progress, Scene, SceneError, builtin};
+use crate::task;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 /// Why there is no scene.
 pub enum Failure {
     /// The loader says so.
     Refused(SceneError),
-    /// The loader's thread ended without a word.
+    /// The loader's task ended without a word.
     Died,
 }
 
@@ -35,11 +36,13 @@ impl Loader {
         self.progress = Progress::default();
         let (wake, wanted, progress) = (self.wake.clone(), opening.clone(), self.progress.clone());
         self.underway = Some((opening, receiver));
-        std::thread::spawn(move || {
+        let work = move || {
             // A receiver that is gone waits for another scene by now.
             let _ = sender.send(read(&wanted, &progress));
             wake.now();
-        });
+        };
+        // Without a thread the sender is gone, and that is told.
+        drop(task::once("scene", work));
     }
 
     /// What is being loaded.
@@ -83,5 +86,8 @@ fn read(opening: &Opening, progress: &Progress) -> Result<Scene, SceneError> {
         environment_rotation: environment.map(|chosen| chosen.rotation),
         scene: opening.inside.clone(),
     };
-    builtin::open_with(&opening.scene, &overrides, progress)
+    match &opening.files {
+        Some(files) => builtin::open_files(files, &overrides, progress),
+        None => builtin::open_with(&opening.scene, &overrides, progress),
+    }
 }

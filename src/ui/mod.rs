@@ -12,9 +12,11 @@ mod checks;
 mod cite;
 mod compare;
 mod darkroom;
+mod drawn;
 mod edit;
 mod export;
 mod features;
+mod files;
 mod fonts;
 mod format;
 mod help;
@@ -50,12 +52,17 @@ mod theme;
 mod top_bar;
 mod tour;
 mod wake;
-#[cfg(not(target_arch = "wasm32"))]
 mod watch;
+#[cfg(target_arch = "wasm32")]
+mod web;
 mod widgets;
+mod window;
 
 pub use app::{App, Start};
 pub use inspector::weights as inspector_weights;
 pub use live::{Live, SceneSource};
 #[cfg(not(target_arch = "wasm32"))]
-pub use native::{EveryPass, Hooks, Pass, WindowError, open, run};
+pub use native::{Hooks, WindowError, open, run};
+#[cfg(target_arch = "wasm32")]
+pub use web::run;
+pub use window::{EveryPass, Pass};

@@ -1,16 +1,17 @@
 //! The window on a desktop. When the graphics device it is drawn with is lost (a driver that restarts, a card that goes away,
-//! memory that runs out), it is closed and opened again, and the same [`App`] goes on in it.
+//! memory that runs out), it is closed and opened again, and the same [`App`](super::App) goes on in it.
 
-use super::text::Text;
 use super::watch::{Losses, Watch};
-use super::{App, SceneSource, Start};
+use super::window::{Contents, EveryPass, Room, Window};
+use super::{SceneSource, Start};
 use eframe::egui;
 use std::cell::RefCell;
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::PathBuf;
 use std::rc::Rc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 /// The film's size at the start, pixels.
 const FILM: [u32; 2] = [512, 512];
@@ -34,21 +35,6 @@ impl fmt::Display for WindowError {
 }
 
 impl std::error::Error for WindowError {}
-
-/// A pass of the window that is about to be.
-pub struct Pass<'p> {
-    /// What is in the window.
-    pub app: &'p mut App,
-    /// The window's context.
-    pub ctx: &'p egui::Context,
-    /// What it is drawn with.
-    pub frame: &'p eframe::Frame,
-    /// Number of the window: 1, and one more for every time its device was lost.
-    pub window: usize,
-}
-
-/// Called before every pass of the window.
-pub type EveryPass<'a> = Box<dyn FnMut(Pass<'_>) + 'a>;
 
 /// What a test adds to the window.
 #[derive(Default)]
@@ -78,7 +64,7 @@ pub fn open(start: Start, mut hooks: Hooks<'_>) -> Result<(), WindowError> {
     display_present().map_err(WindowError::NotOpened)?;
     let mut event_loop = hooks.event_loop.take();
     let storage = hooks.storage.take();
-    let room = Rc::new(RefCell::new(Room { contents: Contents::New(start), every_pass: hooks.every_pass, windows: 0, lost: None }));
+    let room = Room::new(start, hooks.every_pass);
     let (mut losses, mut again) = (Losses::default(), false);
     loop {
         let watch = Watch::default();
@@ -112,17 +98,8 @@ fn show<'a>(room: &Rc<RefCell<Room<'a>>>, watch: &Watch, options: eframe::Native
     let create = Box::new(move |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App + 'a>, _> {
         let fonts = egui_system_font_provider::SystemFontProvider::new().with_locale(Some("zh-Hans"));
         context.egui_ctx.add_font_provider(std::sync::Arc::new(fonts));
-        if let Some(state) = &context.wgpu_render_state {
-            guard.over(&state.device, &context.egui_ctx);
-        }
-        let app = match std::mem::replace(&mut place.borrow_mut().contents, Contents::Taken) {
-            Contents::New(start) => Some(App::new(start, &context.egui_ctx, context.storage)),
-            Contents::Running(app) => Some(moved(*app, &context.egui_ctx)),
-            Contents::Taken => None,
-        };
-        let app = app.ok_or("a window is open already")?;
-        place.borrow_mut().windows += 1;
-        Ok(Box::new(Window { app: Some(Box::new(app)), watch: guard, room: place }))
+        let close = |ctx: &egui::Context| ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+        Ok(Box::new(Window::new(place, guard, context, close)?))
     });
     // Where the device is lost between the window's content and its painting, egui's painter cannot go on, and winit's event
     // loop cannot be run again after such an end: that is the end of the window, but one that says what to do.
@@ -130,13 +107,6 @@ fn show<'a>(room: &Rc<RefCell<Room<'a>>>, watch: &Watch, options: eframe::Native
         Some(why) => WindowError::Ended(format!("the graphics device was lost ({why}): start again, and update the graphics driver")),
         None => resume_unwind(panic),
     })
-}
-
-fn moved(mut app: App, ctx: &egui::Context) -> App {
-    app.move_to(ctx);
-    let note = app.state().say(Text::DeviceRestarted).to_owned();
-    app.state_mut().tell(false, note);
-    app
 }
 
 fn options(storage: Option<PathBuf>) -> eframe::NativeOptions {
@@ -151,74 +121,6 @@ fn options(storage: Option<PathBuf>) -> eframe::NativeOptions {
         system_font_fallback: false,
         persistence_path: storage,
         ..Default::default()
-    }
-}
-
-/// What is or was in the window.
-enum Contents {
-    /// Nothing yet.
-    New(Start),
-    /// It is in a window.
-    Taken,
-    /// It was in a window.
-    Running(Box<App>),
-}
-
-/// What outlives a window.
-struct Room<'a> {
-    contents: Contents,
-    every_pass: Option<EveryPass<'a>>,
-    /// How many windows there were so far.
-    windows: usize,
-    /// Why the window was closed, if its device was lost.
-    lost: Option<String>,
-}
-
-/// The app in one window. It goes back into its room with the window's end, however it ends.
-struct Window<'a> {
-    app: Option<Box<App>>,
-    watch: Watch,
-    room: Rc<RefCell<Room<'a>>>,
-}
-
-impl eframe::App for Window<'_> {
-    fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
-        let Some(app) = &mut self.app else { return };
-        let Room { every_pass, windows, .. } = &mut *self.room.borrow_mut();
-        if let Some(every_pass) = every_pass {
-            every_pass(Pass { app, ctx, frame, window: *windows });
-        }
-        if self.watch.lost().is_some() {
-            ctx.send_viewport_cmd(egui::ViewportCommand::Close);
-        } else {
-            app.logic(ctx, frame);
-        }
-    }
-
-    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
-        // With a lost device nothing may be painted: egui's painter would panic where it gets no memory for its triangles.
-        if let Some(app) = self.app.as_mut().filter(|_| self.watch.lost().is_none()) {
-            app.ui(ui, frame);
-        }
-    }
-
-    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
-        visuals.panel_fill.to_normalized_gamma_f32()
-    }
-
-    fn save(&mut self, storage: &mut dyn eframe::Storage) {
-        if let Some(app) = &mut self.app {
-            app.save(storage);
-        }
-    }
-}
-
-impl Drop for Window<'_> {
-    fn drop(&mut self) {
-        if let (Some(app), Ok(mut room)) = (self.app.take(), self.room.try_borrow_mut()) {
-            room.contents = Contents::Running(app);
-            room.lost = self.watch.lost().map(str::to_owned);
-        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! The textures of the pyramid's cells. They are tone mapped on a thread of their own, and only when a new
+//! The textures of the pyramid's cells. They are tone mapped by a task of their own, and only when a new
 //! frame, exposure or tone map asks for it; until a new one is ready the old one stays.
 
 use super::state::{Gain, State};
@@ -7,6 +7,7 @@ use crate::bdpt::Strategy;
 use crate::engine::Frame;
 use crate::film::tonemap::{Look, ToneMap, fitting_exposure, to_srgb8};
 use crate::math::Vec3;
+use crate::task;
 use eframe::egui::{self, Color32, ColorImage, TextureHandle, TextureId, TextureOptions};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -34,22 +35,23 @@ struct Slot {
     asked: Option<Key>,
 }
 
-/// The pictures on show, and the thread that makes them.
+/// The pictures on show, and the task that makes them.
 pub struct Pictures {
     /// Those of the cells that show what was counted.
     pub cells: CellTextures,
     slots: HashMap<Strategy, Slot>,
-    requests: Sender<Request>,
+    requests: async_channel::Sender<Request>,
     ready: Receiver<(Strategy, Key, ColorImage)>,
 }
 
 impl Pictures {
-    /// Starts the thread; it ends with this value.
+    /// Starts the task; it ends with this value.
     pub fn new(ctx: &egui::Context) -> Self {
-        let (requests, inbox) = channel();
+        let (requests, inbox) = async_channel::unbounded();
         let (outbox, ready) = channel();
         let ctx = ctx.clone();
-        std::thread::spawn(move || develop(&inbox, &outbox, &ctx));
+        // Without a thread there are no pictures.
+        drop(task::spawn("thumbnails", || develop(inbox, outbox, ctx)));
         Self { cells: CellTextures::default(), slots: HashMap::new(), requests, ready }
     }
 
@@ -74,7 +76,7 @@ impl Pictures {
         let there = || frame.thumbnails.iter().any(|x| x.strategy == strategy);
         if slot.asked != Some(key) && slot.asked == slot.shown && there() {
             let request = Request { strategy, key, frame: Arc::clone(frame) };
-            if self.requests.send(request).is_ok() {
+            if self.requests.try_send(request).is_ok() {
                 slot.asked = Some(key);
             }
         }
@@ -82,8 +84,9 @@ impl Pictures {
     }
 }
 
-fn develop(inbox: &Receiver<Request>, outbox: &Sender<(Strategy, Key, ColorImage)>, ctx: &egui::Context) {
-    for Request { strategy, key, frame } in inbox {
+async fn develop(inbox: async_channel::Receiver<Request>, outbox: Sender<(Strategy, Key, ColorImage)>, ctx: egui::Context) {
+    while let Ok(Request { strategy, key, frame }) = inbox.recv().await {
+        task::give_way().await;
         let Some(thumbnail) = frame.thumbnails.iter().find(|x| x.strategy == strategy) else { continue };
         let pixels = &thumbnail.pixels;
         let look = match key.gain {

@@ -39,9 +39,9 @@ pub fn show(ui: &mut Ui, state: &mut State) {
         head(ui, state, Text::Renderer, Text::HelpRenderer);
         ui.horizontal(|ui| {
             for (backend, name, help) in BACKENDS {
-                let chosen = *backend == state.prefs.backend;
+                let chosen = *backend == state.backend();
                 if ui.selectable_label(chosen, state.say(*name)).on_hover_text(state.say(*help)).clicked() {
-                    state.prefs.backend = *backend;
+                    state.choose_backend(*backend);
                 }
             }
         });

@@ -2,8 +2,10 @@
 
 pub use super::checks::{Ask, ChecksState};
 pub use super::compare::{CompareState, Mode as CompareMode, Source};
+pub use super::drawn::{Drawn, Draws, Why, Wish};
 pub use super::edit::EditState;
 pub use super::export::{ExportState, What};
+pub use super::files::{FilesState, Given, Purpose};
 pub use super::image_view::ViewState;
 pub use super::inspector::{Bars, InspectState};
 use super::link::LinkState;
@@ -13,9 +15,10 @@ pub use super::study::StudyState;
 use super::text::{Lang, Text, Words};
 pub use super::tour::Before;
 use crate::bdpt::{Existence, Settings, Strategy, StrategySet};
-use crate::engine::Mode;
+use crate::engine::{Backend, Mode};
 use crate::film::tonemap::{Look, ToneMap};
 use crate::scene::environment::EnvironmentSource;
+use crate::scene::files::Files;
 use crate::scene::{Lens, Pose};
 use eframe::egui;
 
@@ -84,8 +87,10 @@ pub struct ChosenEnvironment {
 /// A scene to load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Opening {
-    /// A built-in name or a path.
+    /// A built-in name or a path; of a scene in memory, its file's name.
     pub scene: String,
+    /// The scene in memory, where it is.
+    pub files: Option<Files>,
     /// Which of the file's scenes, by name or number; `None` = its default.
     pub inside: Option<String>,
     /// `None` = the file's own.
@@ -95,7 +100,12 @@ pub struct Opening {
 impl Opening {
     /// A scene as its file has it.
     pub fn of(scene: impl Into<String>) -> Self {
-        Self { scene: scene.into(), inside: None, environment: None }
+        Self { scene: scene.into(), files: None, inside: None, environment: None }
+    }
+
+    /// Is it read from the same file?
+    pub fn same_file(&self, other: &Self) -> bool {
+        self.scene == other.scene && self.files == other.files
     }
 }
 
@@ -173,10 +183,14 @@ pub struct State {
     pub checks: ChecksState,
     /// Saving.
     pub export: ExportState,
+    /// Files that come in without a path.
+    pub files: FilesState,
     /// How things were when the tour's step began.
     pub tour: Option<Before>,
     /// The inspector's own choices.
     pub inspect: InspectState,
+    /// In a page, what draws the window.
+    pub drawn: Option<Drawn>,
     /// What there is to say.
     pub messages: Vec<Message>,
     /// Links: to be copied, and on their way.
@@ -220,8 +234,10 @@ impl State {
             study: StudyState::default(),
             checks: ChecksState::default(),
             export: ExportState::default(),
+            files: FilesState::default(),
             tour: None,
             inspect: InspectState::default(),
+            drawn: None,
             messages: Vec::new(),
             link: LinkState::default(),
             shares: [None; 3],
@@ -231,6 +247,19 @@ impl State {
     /// A text in the chosen language.
     pub fn say(&self, text: impl Words) -> &'static str {
         text.in_language(self.prefs.lang)
+    }
+
+    /// Who is to render the image.
+    pub fn backend(&self) -> Backend {
+        self.drawn.as_ref().and_then(|drawn| drawn.renders).unwrap_or(self.prefs.backend)
+    }
+
+    /// Chooses who renders the image, also against what the page's address asks for.
+    pub fn choose_backend(&mut self, backend: Backend) {
+        self.prefs.backend = backend;
+        if let Some(drawn) = &mut self.drawn {
+            drawn.renders = None;
+        }
     }
 
     /// Shows a strategy's picture in the image view, and that in front of what would hide it.

@@ -5,7 +5,7 @@ use super::format;
 use super::image_view::Pointer;
 use super::live::Live;
 use super::state::State;
-use super::text::{Lang, Text, ViewText, fill, gpu_error};
+use super::text::{Lang, Text, ViewText, WebText, fill, gpu_error};
 use crate::engine::{Backend, Notice, Stats};
 use eframe::egui::{self, Align, Color32, Label, Layout, RichText, Ui, WidgetText, vec2};
 
@@ -135,6 +135,9 @@ fn rendering(ui: &Ui, state: &State, live: &Live, ui_ms: f32) -> Vec<Item> {
     if let Some(sentence) = fell_back(stats, state.prefs.lang) {
         let text = coloured(sentence.clone(), ui.visuals().warn_fg_color);
         items.push(Item::new(text, format!("{}\n{sentence}", state.say(Text::HelpRendererGpu)), 1));
+    }
+    if let Some(sentence) = state.drawn.as_ref().and_then(|drawn| drawn.sentence(state.prefs.lang)) {
+        items.push(Item::new(sentence.clone(), format!("{sentence}\n{}", state.say(WebText::HelpDrawn)), 2));
     }
     if let Some((sentence, warning)) = noticed(stats, state.prefs.lang) {
         let colour = if warning { ui.visuals().warn_fg_color } else { ui.visuals().text_color() };

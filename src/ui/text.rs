@@ -30,6 +30,7 @@ macro_rules! texts {
 mod check;
 mod edit;
 mod export;
+mod files;
 mod inspect;
 mod link;
 mod looks;
@@ -38,10 +39,12 @@ mod study;
 mod table;
 mod tour;
 mod view;
+mod web;
 
 pub use check::{CheckText, phrase_text, said};
 pub use edit::EditText;
 pub use export::ExportText;
+pub use files::FilesText;
 pub use inspect::InspectText;
 pub use link::LinkText;
 pub use looks::LooksText;
@@ -50,6 +53,7 @@ pub use study::StudyText;
 pub use table::Text;
 pub use tour::TourText;
 pub use view::ViewText;
+pub use web::WebText;
 
 use crate::bdpt::record::SplitReason;
 use crate::bdpt::{Absence, End, Reason};
@@ -256,6 +260,7 @@ mod tests {
         check(StudyText::ALL);
         check(TourText::ALL);
         check(ViewText::ALL);
+        check(WebText::ALL);
     }
 
     #[test]

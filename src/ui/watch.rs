@@ -2,7 +2,8 @@
 
 use eframe::{egui, wgpu};
 use std::sync::{Arc, OnceLock};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 /// Whether the device is lost, and why.
 #[derive(Clone, Default)]
@@ -26,7 +27,7 @@ impl Watch {
     }
 
     /// The first reason is the one that counts: what follows is its consequence.
-    fn note(&self, why: String, window: &egui::Context) {
+    pub fn note(&self, why: String, window: &egui::Context) {
         if self.0.set(why.split_whitespace().collect::<Vec<_>>().join(" ")).is_ok() {
             window.request_repaint();
         }

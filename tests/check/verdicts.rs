@@ -4,6 +4,7 @@ use super::*;
 use bdpt_explorer::bdpt::Strategy;
 use bdpt_explorer::report::check::Phrase;
 use bdpt_explorer::scene::Lens;
+use bdpt_explorer::task::block_on;
 
 fn reason(result: &CheckResult) -> Phrase {
     result.reason().expect("it does not apply").phrase
@@ -136,7 +137,7 @@ fn the_stated_level_is_what_it_says() {
         let (view, control, cancel) = (job.view(), Control::default(), AtomicBool::new(false));
         let mut task = Task { job: &job, view, budget, control, cancel: &cancel, tell: &mut |_| {} };
         let settings = task.settings(4);
-        for (_, z) in sweep(&mut task, &settings).0.judged() {
+        for (_, z) in block_on(sweep(&mut task, &settings)).0.judged() {
             (sum, count) = (sum + z * z, count + 1);
         }
     }

@@ -8,6 +8,7 @@ use bdpt_explorer::report::check::Control;
 use bdpt_explorer::report::check::replay::{BOUND, Findings, sweep};
 use bdpt_explorer::report::check::sweep::{Budget, Task};
 use bdpt_explorer::scene::Scene;
+use bdpt_explorer::task::block_on;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -24,7 +25,7 @@ fn replay_scene(scene: &Arc<Scene>, samples: u64, roulette: bool, spoil: Spoil) 
     let budget = Budget { samples, time: Duration::MAX };
     let control = Control { path: spoil, ..Control::default() };
     let (cancel, view) = (AtomicBool::new(false), job.view());
-    sweep(&mut Task { job: &job, view, budget, control, cancel: &cancel, tell: &mut |_| {} }, &settings).0
+    block_on(sweep(&mut Task { job: &job, view, budget, control, cancel: &cancel, tell: &mut |_| {} }, &settings)).0
 }
 
 fn all_scenes() -> Vec<Arc<Scene>> {

@@ -9,6 +9,7 @@ use bdpt_explorer::report::check::Control;
 use bdpt_explorer::report::check::pairwise::{ENOUGH, Table, sweep};
 use bdpt_explorer::report::check::sweep::{Budget, Task};
 use bdpt_explorer::scene::Scene;
+use bdpt_explorer::task::block_on;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -21,7 +22,7 @@ fn compare(scene: &Arc<Scene>, samples: u64, settings: &Settings, factor: fn(Str
     let budget = Budget { samples, time: Duration::MAX };
     let control = Control { factor, ..Control::default() };
     let (cancel, view) = (AtomicBool::new(false), job.view());
-    sweep(&mut Task { job: &job, view, budget, control, cancel: &cancel, tell: &mut |_| {} }, &job.settings).0
+    block_on(sweep(&mut Task { job: &job, view, budget, control, cancel: &cancel, tell: &mut |_| {} }, &job.settings)).0
 }
 
 /// Level 10⁻³ over all pairs of all scenes together.

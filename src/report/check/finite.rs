@@ -72,46 +72,48 @@ struct Rendered {
 }
 
 /// The check.
-pub fn check(task: &mut Task) -> CheckResult {
+pub async fn check(task: &mut Task<'_>) -> CheckResult {
     let settings = task.settings(MOST_EDGES);
     if task.job.existence().active(&settings).next().is_none() {
         return CheckResult::not_applicable(Check::Finite, Phrase::NoLightAtAll);
     }
     let (lens, factor, own) = (task.lens() == 1, task.control.factor, task.job.settings.heuristic);
     let kinds = KINDS.map(|(kind, name)| (Heuristic { kind, ..own }, name));
-    let (found, samples) = task.sweep(&settings, |context, sample, found: &mut Found| {
-        for strategy in Strategy::all(settings.max_edges, lens) {
-            let Ok(c) = sample.evaluate(context, strategy) else { continue };
-            let (raw, place) = (c.contribution_unweighted * factor(strategy) as f32, Place::new(sample.id, strategy));
-            for (heuristic, name) in &kinds {
-                let weight = mis_weight(&sample.path, strategy.s as usize, heuristic);
-                let weighted = raw * weight;
-                found.contributions += 1;
-                if !raw.is_finite() || !weighted.is_finite() {
-                    found.not_finite.see(place, name);
-                } else if raw.min_element() < 0.0 || weighted.min_element() < 0.0 {
-                    found.negative.see(place, name);
-                }
-                if !(0.0..=1.0 + ROUNDING).contains(&weight) {
-                    found.weights.see(place, name);
+    let (found, samples) = task
+        .sweep(&settings, |context, sample, found: &mut Found| {
+            for strategy in Strategy::all(settings.max_edges, lens) {
+                let Ok(c) = sample.evaluate(context, strategy) else { continue };
+                let (raw, place) = (c.contribution_unweighted * factor(strategy) as f32, Place::new(sample.id, strategy));
+                for (heuristic, name) in &kinds {
+                    let weight = mis_weight(&sample.path, strategy.s as usize, heuristic);
+                    let weighted = raw * weight;
+                    found.contributions += 1;
+                    if !raw.is_finite() || !weighted.is_finite() {
+                        found.not_finite.see(place, name);
+                    } else if raw.min_element() < 0.0 || weighted.min_element() < 0.0 {
+                        found.negative.see(place, name);
+                    }
+                    if !(0.0..=1.0 + ROUNDING).contains(&weight) {
+                        found.weights.see(place, name);
+                    }
                 }
             }
-        }
-    });
-    judge(&found, &render(task, &settings, &kinds), samples)
+        })
+        .await;
+    judge(&found, &render(task, &settings, &kinds).await, samples)
 }
 
 /// Small renderings under every kind of weights.
-fn render(task: &Task, settings: &Settings, kinds: &[(Heuristic, &str)]) -> Rendered {
+async fn render(task: &Task<'_>, settings: &Settings, kinds: &[(Heuristic, &str)]) -> Rendered {
     let mut rendered = Rendered::default();
     for (heuristic, _) in kinds {
         let settings = Settings { heuristic: *heuristic, ..*settings };
         let job = Job { settings, ..small(task.job, SIDE) };
         let Ok(mut session) = Session::new(Job { backend: Backend::Cpu, ..job }) else { continue };
         while session.passes() < PASSES && !task.cancel.load(Relaxed) {
-            session.step(Duration::from_millis(100));
+            session.advance(Duration::from_millis(100)).await;
         }
-        session.collect();
+        session.gather().await;
         let stats = session.stats();
         let wrong = session.image().iter().filter(|c| !c.is_finite() || c.min_element() < 0.0).count() as u64;
         rendered.passes += session.passes();

@@ -56,31 +56,33 @@ fn material(scene: &Scene) -> Result<Material, Phrase> {
 }
 
 /// The check.
-pub fn check(task: &mut Task) -> CheckResult {
+pub async fn check(task: &mut Task<'_>) -> CheckResult {
     let material = match material(&task.job.scene) {
         Ok(material) => material,
         Err(why) => return CheckResult::not_applicable(Check::Furnace, why),
     };
     let settings = task.settings(MOST_EDGES);
     let (k, lens, factor) = (settings.max_edges, task.lens() == 1, task.control.factor);
-    let (found, samples) = task.sweep(&settings, |context, sample, found: &mut Found| {
-        let mut sums = vec![0.0; k as usize];
-        found.largest.resize(k as usize, Largest::default());
-        // All that a walk meets must shine back along it.
-        let dark = sample.eye.vertices.iter().skip(1).any(|v| v.n_g.dot(v.w_prev) <= 0.0 && material.two_sided == 0);
-        found.open |= dark || sample.eye.end == End::Escaped || sample.light.end == End::Escaped;
-        for strategy in Strategy::all(k, lens) {
-            if let Ok(c) = sample.evaluate(context, strategy) {
-                let value = mean(c.contribution_unweighted * c.mis_weight) * factor(strategy);
-                let length = strategy.edges() as usize - 1;
-                sums[length] += value;
-                found.largest[length].see(value, sample.id, strategy);
+    let (found, samples) = task
+        .sweep(&settings, |context, sample, found: &mut Found| {
+            let mut sums = vec![0.0; k as usize];
+            found.largest.resize(k as usize, Largest::default());
+            // All that a walk meets must shine back along it.
+            let dark = sample.eye.vertices.iter().skip(1).any(|v| v.n_g.dot(v.w_prev) <= 0.0 && material.two_sided == 0);
+            found.open |= dark || sample.eye.end == End::Escaped || sample.light.end == End::Escaped;
+            for strategy in Strategy::all(k, lens) {
+                if let Ok(c) = sample.evaluate(context, strategy) {
+                    let value = mean(c.contribution_unweighted * c.mis_weight) * factor(strategy);
+                    let length = strategy.edges() as usize - 1;
+                    sums[length] += value;
+                    found.largest[length].see(value, sample.id, strategy);
+                }
             }
-        }
-        found.lengths.resize(k as usize, Moments::default());
-        found.lengths.iter_mut().zip(&sums).for_each(|(moments, sum)| moments.add(*sum));
-        found.all.add(sums.iter().sum());
-    });
+            found.lengths.resize(k as usize, Moments::default());
+            found.lengths.iter_mut().zip(&sums).for_each(|(moments, sum)| moments.add(*sum));
+            found.all.add(sums.iter().sum());
+        })
+        .await;
     if found.open || found.lengths.is_empty() {
         return CheckResult::not_applicable(Check::Furnace, Phrase::FurnaceOpen);
     }

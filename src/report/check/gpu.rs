@@ -10,6 +10,7 @@ use super::{Check, CheckResult, Effort, Finding, Phrase, Said, Verdict};
 use crate::bdpt::Settings;
 use crate::engine::{Backend, Job, Notice, Session};
 use crate::math::Vec3;
+use crate::task::Bell;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::Duration;
 
@@ -56,29 +57,30 @@ impl Agreement {
 }
 
 /// A finished rendering; `None` if it was cancelled.
-fn rendered(mut session: Session, passes: u32, cancel: &AtomicBool) -> Option<Session> {
+async fn rendered(mut session: Session, passes: u32, cancel: &AtomicBool) -> Option<Session> {
+    let pause = Bell::default();
     // First it must be decided who renders; meanwhile nothing is rendered.
     session.set_limit(0);
     while session.stats().notice == Some(Notice::Compiling) {
-        session.step(Duration::ZERO);
-        std::thread::sleep(Duration::from_millis(10));
+        session.advance(Duration::ZERO).await;
+        pause.rest(Some(Duration::from_millis(10))).await;
         if cancel.load(Relaxed) {
             return None;
         }
     }
     session.set_limit(passes);
     while session.passes() < passes {
-        session.step(Duration::from_millis(50));
+        session.advance(Duration::from_millis(50)).await;
         if cancel.load(Relaxed) {
             return None;
         }
     }
-    session.collect();
+    session.gather().await;
     Some(session)
 }
 
 /// The check. An adapter that runs on the processor is taken where there is time for its compiler.
-pub fn check(task: &mut Task, effort: Effort) -> CheckResult {
+pub async fn check(task: &mut Task<'_>, effort: Effort) -> CheckResult {
     let not = |why: &dyn std::fmt::Display| CheckResult::not_applicable(Check::Gpu, Said::new(Phrase::GpuCannot, &[why]));
     let settings = task.settings(MOST_EDGES);
     if task.job.existence().active(&settings).next().is_none() {
@@ -90,7 +92,7 @@ pub fn check(task: &mut Task, effort: Effort) -> CheckResult {
     let session = |backend, settings| Session::new(Job { backend, settings, ..job.clone() });
     let other = Settings { seed: settings.seed.wrapping_add(task.control.gpu_seed), ..settings };
     let gpu = match session(backend, other) {
-        Ok(gpu) => rendered(gpu, passes, task.cancel),
+        Ok(gpu) => rendered(gpu, passes, task.cancel).await,
         Err(error) => return not(&error),
     };
     // A check that was cancelled is not listened to.
@@ -101,7 +103,7 @@ pub fn check(task: &mut Task, effort: Effort) -> CheckResult {
     }
     (task.tell)(0.6);
     let cpu = match session(Backend::Cpu, settings) {
-        Ok(cpu) => rendered(cpu, passes, task.cancel),
+        Ok(cpu) => rendered(cpu, passes, task.cancel).await,
         Err(error) => return not(&error),
     };
     let Some(cpu) = cpu else { return not(&"") };

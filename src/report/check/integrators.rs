@@ -77,7 +77,7 @@ fn common([pt, lt, all]: [f64; 3]) -> f64 {
 }
 
 /// The check.
-pub fn check(task: &mut Task) -> CheckResult {
+pub async fn check(task: &mut Task<'_>) -> CheckResult {
     let all = task.settings(MOST_EDGES);
     let families = [StrategySet::path_tracer(), StrategySet::light_tracer()];
     let existence = task.job.existence();
@@ -88,36 +88,38 @@ pub fn check(task: &mut Task) -> CheckResult {
     let (lens, factor, [width, height]) = (task.lens() == 1, task.control.factor, task.view.size);
     let block = |[x, y]: [u32; 2]| ((y * BLOCKS[1] / height) * BLOCKS[0] + x * BLOCKS[0] / width) as usize;
     let count = (BLOCKS[0] * BLOCKS[1]) as usize + 1;
-    let (mut found, samples) = task.sweep(&all, |context, sample, found: &mut Found| {
-        let own = families.map(|strategies| Settings { strategies, ..all });
-        let contexts: Vec<Context> = own.iter().map(|settings| Context { settings, ..*context }).collect();
-        found.0.resize(count, Block::default());
-        let mut sums = vec![[0.0; 3]; count];
-        for strategy in Strategy::all(all.max_edges, lens) {
-            let Ok(c) = sample.evaluate(context, strategy) else { continue };
-            let ln_p = log_densities(&sample.path);
-            let sums_of_p = [families[0], families[1], StrategySet::ALL].map(|family| ln_family(&sample.path, &ln_p, &family));
-            let value = f64::from(c.contribution_unweighted.element_sum()) * common(sums_of_p) * factor(strategy);
-            let at = [block(c.pixel), count - 1];
-            at.iter().for_each(|&b| sums[b][0] += value * f64::from(c.mis_weight));
-            // The same strategy at work in its family, with the weights of that.
-            for (n, (_, context)) in families.iter().zip(&contexts).enumerate().filter(|(_, (family, _))| family.contains(strategy)) {
+    let (mut found, samples) = task
+        .sweep(&all, |context, sample, found: &mut Found| {
+            let own = families.map(|strategies| Settings { strategies, ..all });
+            let contexts: Vec<Context> = own.iter().map(|settings| Context { settings, ..*context }).collect();
+            found.0.resize(count, Block::default());
+            let mut sums = vec![[0.0; 3]; count];
+            for strategy in Strategy::all(all.max_edges, lens) {
                 let Ok(c) = sample.evaluate(context, strategy) else { continue };
-                for &b in &at {
-                    let own = value * f64::from(c.mis_weight);
-                    sums[b][n + 1] += own;
-                    let brings = &mut found.0[b].brings[n];
-                    brings.resize(brings.len().max(strategy.index() + 1), 0.0);
-                    brings[strategy.index()] += own;
-                    found.0[b].largest[n].see(own, sample.id, strategy);
+                let ln_p = log_densities(&sample.path);
+                let sums_of_p = [families[0], families[1], StrategySet::ALL].map(|family| ln_family(&sample.path, &ln_p, &family));
+                let value = f64::from(c.contribution_unweighted.element_sum()) * common(sums_of_p) * factor(strategy);
+                let at = [block(c.pixel), count - 1];
+                at.iter().for_each(|&b| sums[b][0] += value * f64::from(c.mis_weight));
+                // The same strategy at work in its family, with the weights of that.
+                for (n, (_, context)) in families.iter().zip(&contexts).enumerate().filter(|(_, (family, _))| family.contains(strategy)) {
+                    let Ok(c) = sample.evaluate(context, strategy) else { continue };
+                    for &b in &at {
+                        let own = value * f64::from(c.mis_weight);
+                        sums[b][n + 1] += own;
+                        let brings = &mut found.0[b].brings[n];
+                        brings.resize(brings.len().max(strategy.index() + 1), 0.0);
+                        brings[strategy.index()] += own;
+                        found.0[b].largest[n].see(own, sample.id, strategy);
+                    }
                 }
             }
-        }
-        for (block, sums) in found.0.iter_mut().zip(&sums).filter(|(_, sums)| **sums != [0.0; 3]) {
-            block.means.iter_mut().zip(sums).for_each(|(moments, x)| moments.add(*x));
-            (0..2).for_each(|n| block.differences[n].add(sums[n + 1] - sums[0]));
-        }
-    });
+            for (block, sums) in found.0.iter_mut().zip(&sums).filter(|(_, sums)| **sums != [0.0; 3]) {
+                block.means.iter_mut().zip(sums).for_each(|(moments, x)| moments.add(*x));
+                (0..2).for_each(|n| block.differences[n].add(sums[n + 1] - sums[0]));
+            }
+        })
+        .await;
     for block in &mut found.0 {
         block.means = block.means.map(|m| m.padded(samples));
         block.differences = block.differences.map(|m| m.padded(samples));

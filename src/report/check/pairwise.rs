@@ -63,31 +63,33 @@ struct Estimate {
 }
 
 /// Compares all pairs in as many samples as the task has time for.
-pub fn sweep(task: &mut Task, settings: &Settings) -> (Table, u64) {
+pub async fn sweep(task: &mut Task<'_>, settings: &Settings) -> (Table, u64) {
     let (factor, lens) = (task.control.factor, task.lens());
-    let (mut table, samples) = task.sweep(settings, |context, sample, table: &mut Table| {
-        for k in 1..=settings.max_edges {
-            let last = (k + lens) as usize;
-            let estimates: Vec<Option<Estimate>> = (0..=k + lens)
-                .map(|s| {
-                    let strategy = strategy(k, s as usize);
-                    let contribution = sample.evaluate(context, strategy).ok()?;
-                    let mut ln_p = log_densities(&sample.path);
-                    ln_p.iter_mut().zip(&sample.path.samplable).filter(|(_, can)| !**can).for_each(|(p, _)| *p = f64::NEG_INFINITY);
-                    Some(Estimate { value: f64::from(contribution.contribution_unweighted.element_sum()) * factor(strategy), ln_p })
-                })
-                .collect();
-            for i in 0..=last {
-                for j in i + 1..=last {
-                    let bounded = |of: usize| estimates[of].as_ref().map_or(0.0, |e| e.value * harmonic(e.ln_p[i], e.ln_p[j]));
-                    let values = [bounded(i), bounded(j)];
-                    if values != [0.0; 2] {
-                        see(table.0.entry((k, i, j)).or_default(), values, (k, [i, j]), sample.id);
+    let (mut table, samples) = task
+        .sweep(settings, |context, sample, table: &mut Table| {
+            for k in 1..=settings.max_edges {
+                let last = (k + lens) as usize;
+                let estimates: Vec<Option<Estimate>> = (0..=k + lens)
+                    .map(|s| {
+                        let strategy = strategy(k, s as usize);
+                        let contribution = sample.evaluate(context, strategy).ok()?;
+                        let mut ln_p = log_densities(&sample.path);
+                        ln_p.iter_mut().zip(&sample.path.samplable).filter(|(_, can)| !**can).for_each(|(p, _)| *p = f64::NEG_INFINITY);
+                        Some(Estimate { value: f64::from(contribution.contribution_unweighted.element_sum()) * factor(strategy), ln_p })
+                    })
+                    .collect();
+                for i in 0..=last {
+                    for j in i + 1..=last {
+                        let bounded = |of: usize| estimates[of].as_ref().map_or(0.0, |e| e.value * harmonic(e.ln_p[i], e.ln_p[j]));
+                        let values = [bounded(i), bounded(j)];
+                        if values != [0.0; 2] {
+                            see(table.0.entry((k, i, j)).or_default(), values, (k, [i, j]), sample.id);
+                        }
                     }
                 }
             }
-        }
-    });
+        })
+        .await;
     // Where neither had anything, both were zero.
     for compared in table.0.values_mut() {
         compared.difference = compared.difference.padded(samples);
@@ -120,7 +122,7 @@ pub fn harmonic(ln_i: f64, ln_j: f64) -> f64 {
 }
 
 /// The check.
-pub fn check(task: &mut Task) -> CheckResult {
+pub async fn check(task: &mut Task<'_>) -> CheckResult {
     let settings = task.settings(MOST_EDGES);
     let existence = task.job.existence();
     let exists = |k: u32, s: usize| existence.absence(strategy(k, s)).is_none();
@@ -132,7 +134,7 @@ pub fn check(task: &mut Task) -> CheckResult {
     if all == 0 {
         return CheckResult::not_applicable(Check::Pairwise, Phrase::OneStrategy);
     }
-    let (table, samples) = sweep(task, &settings);
+    let (table, samples) = sweep(task, &settings).await;
     let judged = table.judged();
     let limit = z_limit(LEVEL, judged.len());
     // A difference that is no number is no agreement.

@@ -145,7 +145,7 @@ impl Merge for Findings {
 }
 
 /// Replays every feasible path of as many samples as the task has time for.
-pub fn sweep(task: &mut Task, settings: &Settings) -> (Findings, u64) {
+pub async fn sweep(task: &mut Task<'_>, settings: &Settings) -> (Findings, u64) {
     let (control, lens) = (task.control, task.lens() == 1);
     task.sweep(settings, |context, sample, found: &mut Findings| {
         for strategy in Strategy::all(settings.max_edges, lens) {
@@ -156,6 +156,7 @@ pub fn sweep(task: &mut Task, settings: &Settings) -> (Findings, u64) {
             }
         }
     })
+    .await
 }
 
 /// How much an f32 rounding of a direction can change the densities of a path, relative to a well-conditioned one: where a
@@ -256,9 +257,9 @@ fn compare_densities(original: &FullPath, rebuilt: &Replayed, (ln_p, slack): (&[
 }
 
 /// The check.
-pub fn check(task: &mut Task) -> CheckResult {
+pub async fn check(task: &mut Task<'_>) -> CheckResult {
     let settings = task.settings(MOST_EDGES);
-    let (found, samples) = sweep(task, &settings);
+    let (found, samples) = sweep(task, &settings).await;
     if task.job.existence().active(&settings).next().is_none() {
         return CheckResult::not_applicable(Check::Replay, Phrase::NoLightAtAll);
     }

@@ -10,6 +10,7 @@ use crate::bdpt::{Heuristic, Settings, StrategySet};
 use crate::engine::Job;
 use crate::rng::SampleId;
 use crate::scene::View;
+use crate::task;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::Duration;
@@ -63,14 +64,14 @@ impl Task<'_> {
     }
 
     /// Traces and visits samples until the budget is spent; returns what was found, and in how many samples.
-    pub fn sweep<A: Merge>(&mut self, settings: &Settings, visit: impl Fn(&Context, &mut Sample, &mut A) + Sync) -> (A, u64) {
+    pub async fn sweep<A: Merge>(&mut self, settings: &Settings, visit: impl Fn(&Context, &mut Sample, &mut A) + Sync) -> (A, u64) {
         let (view, budget, start) = (&self.view, self.budget, Instant::now());
         let context = Context::new(&self.job.scene, view, settings);
         let (light, eye) = ((settings.max_edges + self.lens()) as usize, settings.max_edges as usize + 1);
         let order = Order::of(view.size);
         let (mut found, mut done) = (A::default(), 0);
         while done < budget.samples && start.elapsed() < budget.time && !self.cancel.load(Relaxed) {
-            let round = (budget.samples - done).min(CHUNK * 4 * rayon::current_num_threads() as u64);
+            let round = (budget.samples - done).min(CHUNK * if task::THREADS { 4 * rayon::current_num_threads() as u64 } else { 1 });
             let chunks: Vec<A> = (0..round.div_ceil(CHUNK))
                 .into_par_iter()
                 .map_init(Sample::default, |sample, chunk| {
@@ -85,6 +86,7 @@ impl Task<'_> {
             chunks.into_iter().for_each(|part| found.merge(part));
             done += round;
             let spent = start.elapsed().as_secs_f64() / budget.time.as_secs_f64();
+            task::give_way().await;
             (self.tell)((done as f64 / budget.samples as f64).max(spent).min(1.0));
         }
         (found, done)

@@ -9,6 +9,7 @@ use crate::bdpt::Settings;
 use crate::engine::{Engine, Job};
 use crate::report::check::{self, Check, CheckResult, Effort, Event, Wanted};
 use crate::scene::Scene;
+use crate::task;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -102,7 +103,7 @@ impl Runner {
         let cancel = Arc::new(AtomicBool::new(false));
         let effort = if state.checks.thorough { Effort::Thorough } else { Effort::Quick };
         let (wanted, own_job, own_cancel, wake) = (Wanted::new(checks.clone(), effort), job.clone(), cancel.clone(), wake.clone());
-        let work = move || {
+        let work = move || async move {
             // Also when a check fails unexpectedly, somebody must hear of it, once the sender is gone.
             let _last = Waker(&wake);
             let sender = sender;
@@ -111,9 +112,9 @@ impl Runner {
                 drop(sender.send(event));
                 wake.now();
             };
-            check::run(&own_job, &wanted, &mut tell, &own_cancel);
+            check::go_through(&own_job, &wanted, &mut tell, &own_cancel).await;
         };
-        match std::thread::Builder::new().name("checks".to_owned()).spawn(work) {
+        match task::spawn("checks", work) {
             Ok(_) => {
                 let count = checks.len();
                 self.underway = Some(Underway { subject: Subject::of(job), cancel, events, left: checks, share: 0.0, count });

@@ -93,7 +93,12 @@ fn joined(some: &SceneEdits, one: &SceneEdits) -> SceneEdits {
 /// What is to be rendered: what of the link cannot be goes back to the first start's.
 fn job(link: &Link, scene: Arc<Scene>, ignored: &mut Vec<Ignored>) -> Job {
     let start = Job::new(scene);
-    let mut job = Job { weighted_layers: true, ..start.clone() };
+    let mut job = Job { weighted_layers: true, ..start };
+    let (camera, pose, lens, size, settings) = (link.camera as usize, link.pose, link.lens, link.size, link.settings);
+    let whole = Job { camera, pose, lens, size, settings, ..job.clone() };
+    if whole.check().is_ok() {
+        return whole;
+    }
     let mut attempt = |key: &str, change: &dyn Fn(&mut Job)| {
         let mut with = job.clone();
         change(&mut with);

@@ -61,15 +61,17 @@ impl Link {
             study,
             checks,
             export: _,
+            files: _,
             tour: _,
             inspect,
+            drawn: _,
             messages: _,
             link: _,
             shares,
         } = state;
-        let Opening { scene, inside, environment } = opened;
+        let Opening { scene, files, inside, environment } = opened;
         let Selection { pixel, sample, strategy, vertex } = *selection;
-        let EditState { edits, history: _, moving: _, ask_for_file: _, grip: _, bookmark_name: _, renaming: _ } = edit;
+        let EditState { edits, history: _, moving: _, grip: _, bookmark_name: _, renaming: _ } = edit;
         let ViewState { offset, pointer: _, one_to_one: _ } = *view;
         let StudyState { mode, why } = *study;
         let ChecksState { ask: _, thorough: _, unfolded: _ } = checks;
@@ -98,7 +100,7 @@ impl Link {
             version: LINK_VERSION,
             estimator: Some(RECORD_VERSION),
             lang: Some(prefs.lang),
-            scene: shared(scene),
+            scene: shared(scene, files.is_some()),
             inside: inside.clone(),
             environment,
             turn,
@@ -125,8 +127,17 @@ pub fn file_name(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
-fn shared(scene: &str) -> Shared<String> {
-    let known = builtin::list().iter().any(|own| own.name == scene);
+/// The name of the file an environment is read from.
+pub fn sky_name(source: &EnvironmentSource) -> Option<String> {
+    match source {
+        EnvironmentSource::Constant(_) => None,
+        EnvironmentSource::File(path) => Some(file_name(&path.to_string_lossy()).to_owned()),
+        EnvironmentSource::Memory(file) => Some(file.short_name().to_owned()),
+    }
+}
+
+fn shared(scene: &str, in_memory: bool) -> Shared<String> {
+    let known = !in_memory && builtin::list().iter().any(|own| own.name == scene);
     if known { Shared::Known(scene.to_owned()) } else { Shared::File(file_name(scene).to_owned()) }
 }
 
@@ -134,7 +145,7 @@ fn surroundings(chosen: &ChosenEnvironment) -> (Option<Shared<[f32; 3]>>, f64) {
     let ChosenEnvironment { source, rotation } = chosen;
     let source = match source {
         EnvironmentSource::Constant(radiance) => Shared::Known(radiance.to_array()),
-        EnvironmentSource::File(path) => Shared::File(file_name(&path.to_string_lossy()).to_owned()),
+        file => Shared::File(sky_name(file).unwrap_or_default()),
     };
     (Some(source), *rotation)
 }

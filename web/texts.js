@@ -1,0 +1,57 @@
+// What the page itself says, before the program runs and when it cannot.
+const TEXTS = {
+  en: {
+    downloading: "Loading: {} of {} MB",
+    starting: "Starting …",
+    again: "Start again",
+    afresh: "Start with the first scene",
+    more: "Technical detail",
+    network: ["The program could not be loaded", "The download of the page's program failed or broke off.", "Check the connection, then start again."],
+    stale: ["There is a newer version", "The page in the browser's memory belongs to a version that is no longer on the server.", "Start again to get the new one."],
+    server: ["The server sent something else", "Instead of the program, the server sent another kind of file.", "If this is your server: serve the built folder as it is, with every file under its own name."],
+    old: ["This browser is too old", "It cannot run the program, which needs WebAssembly with vector instructions.", "Update it, or take another one: Chrome or Edge 91, Firefox 89, Safari 16.4, or newer."],
+    graphics: [
+      "The browser gives the page no graphics",
+      "The program draws its window with WebGPU or, without that, with WebGL 2. Here there is neither.",
+      "Switch on “hardware acceleration” in the browser's settings and start again, update the browser and the graphics driver, or open the link in a current Chrome, Edge, Firefox or Safari. On a computer the same program also runs without a browser.",
+    ],
+    device: [
+      "The graphics device fails again and again",
+      "It was lost several times within a minute, so the page has stopped using it.",
+      "Close other programs and tabs that draw a lot, update the browser and the graphics driver, then start again.",
+    ],
+    memory: [
+      "The memory is used up",
+      "The browser gives the page no more memory, so the program has stopped.",
+      "Start again opens the same view with half the width and height. Scenes with fewer triangles and smaller textures, and shorter paths (K), need less.",
+    ],
+    trap: [
+      "The program has stopped",
+      "It could not go on. Most often the reason is that the browser gives the page no more memory.",
+      "Start again opens the same view with half the width and height. If it stops again, please report it with the technical detail below.",
+    ],
+    panic: ["The program has stopped", "It came upon a mistake of its own.", "Start again opens the same view. If it stops again, please report it with the technical detail below."],
+    script: ["The page has stopped", "A script of the page failed.", "Start again opens the same view. If it stops again, please report it with the technical detail below."],
+  },
+  zh: {
+    downloading: "正在加载：{} / {} MB",
+    starting: "正在启动……",
+    again: "重新开始",
+    afresh: "从第一个场景开始",
+    more: "技术细节",
+    network: ["无法加载程序", "页面程序下载失败或中断。", "请检查网络连接，然后重新开始。"],
+    stale: ["已有更新的版本", "浏览器缓存的页面属于服务器上已不存在的版本。", "重新开始即可获得新版本。"],
+    server: ["服务器发送了别的内容", "服务器没有发送程序，而是发送了另一种文件。", "如果这是您的服务器：请原样提供构建出的文件夹，每个文件保持原名。"],
+    old: ["浏览器版本过旧", "它无法运行本程序：程序需要带向量指令的 WebAssembly。", "请更新浏览器，或使用 Chrome / Edge 91、Firefox 89、Safari 16.4 或更新版本。"],
+    graphics: [
+      "浏览器没有为页面提供图形功能",
+      "程序用 WebGPU 绘制窗口，没有时用 WebGL 2。这里两者都没有。",
+      "请在浏览器设置中开启“硬件加速”后重新开始，或更新浏览器和显卡驱动，或用新版 Chrome、Edge、Firefox、Safari 打开链接。在计算机上，同一程序也可以不用浏览器运行。",
+    ],
+    device: ["图形设备反复失效", "它在一分钟内多次丢失，页面已停止使用它。", "请关闭其他占用图形的程序和标签页，更新浏览器和显卡驱动，然后重新开始。"],
+    memory: ["内存已用尽", "浏览器不再为页面提供内存，程序已停止。", "重新开始会以一半的宽度和高度打开同一视图。三角形更少、纹理更小的场景以及更短的路径（K）需要的内存更少。"],
+    trap: ["程序已停止", "程序无法继续运行。最常见的原因是浏览器不再为页面提供内存。", "重新开始会以一半的宽度和高度打开同一视图。如果再次停止，请附上下面的技术细节报告问题。"],
+    panic: ["程序已停止", "程序自身出现了错误。", "重新开始会打开同一视图。如果再次停止，请附上下面的技术细节报告问题。"],
+    script: ["页面已停止", "页面的一个脚本出错。", "重新开始会打开同一视图。如果再次停止，请附上下面的技术细节报告问题。"],
+  },
+};
