@@ -7,7 +7,9 @@ use super::live::{Live, SceneSource};
 use super::pictures::Pictures;
 use super::state::{Maximised, Preferences, State};
 use super::wake::Wake;
-use super::{files, fonts, help, image_view, inspector, keys, messages, pyramid, space, status_bar, theme, top_bar, tour};
+use super::{
+    files, fonts, help, image_view, inspector, keys, messages, phone, pyramid, space, status_bar, theme, top_bar, touch, tour,
+};
 use eframe::egui::{self, CentralPanel, Color32, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
 use eframe::egui_wgpu::RenderState;
 use web_time::Instant;
@@ -130,7 +132,12 @@ impl App {
     fn panels(&mut self, ui: &mut Ui, gpu: Option<&RenderState>) {
         // A view that is not shown hears no keys.
         self.state.space.attention = Default::default();
-        let Self { state, live, pictures, desk, stage, .. } = self;
+        let Self { state, live, pictures, desk, stage, ui_ms, .. } = self;
+        if state.phone {
+            let views = phone::Views { pictures, desk, stage, gpu, ui_ms: *ui_ms };
+            self.image = phone::show(ui, state, live, views).unwrap_or(self.image);
+            return;
+        }
         // The window is cleared to the panels' ground: painting it once more would cost a software adapter a whole frame's time.
         let bar = |top: i8| {
             Frame::side_top_panel(ui.style()).fill(Color32::TRANSPARENT).inner_margin(Margin { left: 10, right: 10, top, bottom: top })
@@ -190,12 +197,14 @@ impl App {
 
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
-        theme::choose(ctx, &self.state.prefs);
+        self.state.phone = theme::is_small(ctx);
+        theme::choose(ctx, &self.state.prefs, self.state.phone || self.state.touch);
         self.sync(ctx);
     }
 
     fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
         let start = Instant::now();
+        touch::watch(ui.ctx(), &mut self.state);
         keys::obey(ui.ctx(), &mut self.state, image_view::id());
         self.pictures.collect(ui.ctx());
         self.desk.darkroom.collect(ui.ctx());

@@ -312,7 +312,10 @@ pub fn step_sample(state: &mut State, back: bool) {
 
 /// Closes what is open; with nothing open, the view goes back to the image.
 fn back(state: &mut State) {
-    let open = std::mem::take(&mut state.help) | std::mem::take(&mut state.picking_focus) | state.inspect.search.take().is_some();
+    let open = std::mem::take(&mut state.help)
+        | std::mem::take(&mut state.menu)
+        | std::mem::take(&mut state.picking_focus)
+        | state.inspect.search.take().is_some();
     if !open {
         state.compare.a = Source::Image;
     }

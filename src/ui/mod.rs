@@ -34,6 +34,7 @@ mod messages;
 #[cfg(not(target_arch = "wasm32"))]
 mod native;
 mod overlay;
+mod phone;
 mod pictures;
 mod places;
 mod preferences;
@@ -50,6 +51,7 @@ mod study;
 pub mod text;
 mod theme;
 mod top_bar;
+mod touch;
 mod tour;
 mod wake;
 mod watch;
