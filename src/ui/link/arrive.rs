@@ -154,8 +154,9 @@ fn picture(picture: &Picture, state: &mut State) {
 }
 
 fn layout(layout: &Layout, state: &mut State) {
-    let Layout { maximised, panels, space_in_front, shares, tab, sort, walk, bars, what_if, mode, why, gain, cell } = *layout;
+    let Layout { maximised, panels, space_in_front, beside, shares, tab, sort, walk, bars, what_if, mode, why, gain, cell } = *layout;
     (state.maximised, state.space_in_front, state.walk) = (maximised, space_in_front, walk);
+    (state.beside, state.menu) = (beside, false);
     (state.inspect.bars, state.inspect.what_if) = (bars, what_if);
     (state.study.mode, state.study.why) = (mode, why);
     if state.shares != shares {

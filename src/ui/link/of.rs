@@ -55,6 +55,11 @@ impl Link {
             maximised,
             narrow: _,
             space_in_front,
+            phone: _,
+            beside,
+            menu: _,
+            touch: _,
+            fingers: _,
             help: _,
             space,
             edit,
@@ -80,6 +85,7 @@ impl Link {
         let layout = Layout {
             maximised: *maximised,
             space_in_front: *space_in_front,
+            beside: *beside,
             shares: *shares,
             walk: *walk,
             bars: *bars,
@@ -187,6 +193,7 @@ fn layout(prefs: &Preferences) -> Layout {
         // The caller's.
         maximised: crate::ui::state::Maximised::None,
         space_in_front: false,
+        beside: crate::ui::state::Maximised::Inspector,
         shares: [None; 3],
         walk: crate::ui::state::Walk::Full,
         bars: crate::ui::inspector::Bars::default(),
