@@ -316,6 +316,13 @@ fn a_link_that_is_too_long_is_not_read() {
     let long = format!("#v=1&{}", "a".repeat(MOST_BYTES));
     assert_eq!(Link::parse(&long), Err(MOST_BYTES + 5));
     assert!(Link::parse(&long[..MOST_BYTES]).is_ok());
+    // Nor is one written: the changes of the scene stay behind.
+    let mut link = Link::default();
+    let edit = MaterialEdit { name: "x".repeat(40), color: Some([0.5; 3]), ..MaterialEdit::default() };
+    link.edits.materials.insert(0, edit.clone());
+    assert_eq!(copy::bounded(link.clone()), (link.to_text(), false));
+    link.edits.materials.extend((1..300).map(|index| (index, edit.clone())));
+    assert_eq!(copy::bounded(link), (Link::default().to_text(), true));
 }
 
 /// Links that are nearly right: letters changed, pieces moved, doubled and cut.
