@@ -43,6 +43,8 @@ mod keys;
 mod layout;
 #[path = "ui/lens.rs"]
 mod lens;
+#[path = "ui/link.rs"]
+mod link;
 #[path = "ui/look_inspect.rs"]
 mod look_inspect;
 #[path = "ui/looks.rs"]
