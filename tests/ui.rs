@@ -51,6 +51,8 @@ mod looks;
 mod measure;
 #[path = "ui/numbers.rs"]
 mod numbers;
+#[path = "ui/phone.rs"]
+mod phone;
 #[path = "ui/pixel.rs"]
 mod pixel;
 #[path = "ui/random.rs"]
@@ -71,10 +73,14 @@ mod space;
 mod space_looks;
 #[path = "ui/study.rs"]
 mod study;
+#[path = "ui/summary.rs"]
+mod summary;
 #[path = "ui/surfaces.rs"]
 mod surfaces;
 #[path = "ui/surroundings.rs"]
 mod surroundings;
+#[path = "ui/touch.rs"]
+mod touch;
 #[path = "ui/tour.rs"]
 mod tour;
 #[path = "ui/view.rs"]

@@ -5,6 +5,7 @@ use super::image_view::Desk;
 use super::live::{Live, SceneSource};
 use super::pictures::Pictures;
 use super::state::{Maximised, Opening, Preferences, State};
+use super::summary::{self, Summary};
 use super::text::{Text, fill};
 use super::wake::Wake;
 use super::{
@@ -53,7 +54,7 @@ impl App {
         let mut live = Live::new(&wake);
         live.open(start.source);
         Self {
-            state: State::new(preferences.unwrap_or_default(), start.size),
+            state: State::new(preferences.unwrap_or_else(Preferences::first), start.size),
             live,
             desk: Desk::new(ctx, &wake),
             wake,
@@ -90,6 +91,11 @@ impl App {
     /// What runs.
     pub fn live(&self) -> &Live {
         &self.live
+    }
+
+    /// What is selected, in words; `None` while there is no sample.
+    pub fn summary(&self) -> Option<Summary> {
+        summary::now(&self.state, &self.live)
     }
 
     /// Where the centre of a pixel is on the screen.

@@ -7,7 +7,10 @@ use super::pictures::Pictures;
 use super::state::{Maximised, State};
 use super::text::{ExportText, LooksText, PhoneText, SpaceText, Text, Words};
 use super::{export, image_view, inspector, looks_menu, messages, pyramid, render_menu, scene_menu, space, status_bar, top_bar, tour};
-use eframe::egui::{Button, CentralPanel, Color32, Frame, Margin, Panel, Rect, RichText, ScrollArea, Ui, WidgetInfo, vec2};
+use eframe::egui::{
+    Button, CentralPanel, Color32, Frame, Margin, Panel, Rect, RichText, Role, ScrollArea, TextStyle, TextWrapMode, Ui, WidgetInfo,
+    WidgetText, vec2,
+};
 use eframe::egui_wgpu::RenderState;
 
 /// What the panels are drawn with.
@@ -43,7 +46,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, views: Views<'_>) -> Op
             top_bar::pause(ui, state);
             if wide {
                 ui.separator();
-                tabs(ui, state, 0.0);
+                tabs(ui, state, None);
             }
         });
     });
@@ -55,8 +58,10 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, views: Views<'_>) -> Op
     }
     if !wide {
         Panel::bottom("phone tabs").frame(thick).show(ui, |ui| {
-            let width = (ui.available_width() - 40.0 - 4.0 * GAP) / TABS.len() as f32;
-            ui.horizontal(|ui| tabs(ui, state, width));
+            ui.horizontal(|ui| {
+                let room = ui.available_width();
+                tabs(ui, state, Some(room));
+            });
         });
     }
     Panel::bottom("phone status").frame(slim).show(ui, |ui| status_bar::show(ui, state, live, views.ui_ms));
@@ -89,20 +94,27 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, views: Views<'_>) -> Op
 const GAP: f32 = 4.0;
 const TABS: [Maximised; 4] = [Maximised::Image, Maximised::Space, Maximised::Inspector, Maximised::Pyramid];
 
-/// The tabs, and the button that gives the panel on show all the room; `width` of a tab, at least.
-fn tabs(ui: &mut Ui, state: &mut State, width: f32) {
+/// The tabs, and the button that gives the panel on show all the room; they fill `room`.
+fn tabs(ui: &mut Ui, state: &mut State, room: Option<f32>) {
     ui.spacing_mut().item_spacing.x = GAP;
     let front = if state.maximised == Maximised::None { state.beside } else { state.maximised };
     let height = ui.spacing().interact_size.y;
-    for tab in TABS {
-        let name = match tab {
-            Maximised::Space => state.say(Text::Space),
-            Maximised::Inspector => state.say(Text::Inspector),
-            Maximised::Pyramid => state.say(Text::Pyramid),
-            _ => state.say(PhoneText::Image),
-        };
+    let names = TABS.map(|tab| match tab {
+        Maximised::Space => state.say(Text::Space),
+        Maximised::Inspector => state.say(Text::Inspector),
+        Maximised::Pyramid => state.say(Text::Pyramid),
+        _ => state.say(PhoneText::Image),
+    });
+    let natural = names.map(|name| {
+        let text = WidgetText::from(name).into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, TextStyle::Button);
+        (text.size().x + 2.0 * ui.spacing().button_padding.x).max(height)
+    });
+    // What is left is shared out.
+    let taken = natural.iter().map(|width| width + GAP).sum::<f32>() + height;
+    let more = room.map_or(0.0, |room| ((room - taken) / TABS.len() as f32 - 0.5).max(0.0));
+    for ((tab, name), width) in TABS.into_iter().zip(names).zip(natural) {
         let chosen = front == tab && !state.menu;
-        if ui.add(Button::selectable(chosen, name).min_size(vec2(width, height))).clicked() {
+        if ui.add(Button::selectable(chosen, name).min_size(vec2(width + more, height))).clicked() {
             (state.beside, state.maximised, state.menu) = (tab, Maximised::None, false);
         }
     }
@@ -117,7 +129,7 @@ fn tabs(ui: &mut Ui, state: &mut State, width: f32) {
 }
 
 fn named(state: &State, text: impl Words, on: bool) -> WidgetInfo {
-    WidgetInfo::selected(eframe::egui::Role::Button, true, on, state.say(text))
+    WidgetInfo::selected(Role::Button, true, on, state.say(text))
 }
 
 /// What does not fit into the top bar.
@@ -125,6 +137,10 @@ fn menu(ui: &mut Ui, state: &mut State, live: &Live) {
     ScrollArea::vertical().id_salt("phone menu").auto_shrink(false).show(ui, |ui| {
         if ui.button(state.say(PhoneText::Keys)).clicked() {
             state.help = true;
+        }
+        // In full, what the status bar has no room for.
+        for sentence in live.frame().map(|frame| status_bar::renderer(state, &frame.stats)).into_iter().flatten() {
+            ui.label(RichText::new(sentence).small().weak());
         }
         ui.separator();
         ui.horizontal_wrapped(|ui| top_bar::estimator(ui, state, live));

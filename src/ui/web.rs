@@ -1,6 +1,7 @@
 //! The window in a page: a canvas, drawn with WebGPU or WebGL 2. When the device it is drawn with is lost, it goes, and the same
 //! [`App`](super::App) goes on in a new one; what cannot go on says so on the page (`web/loader.js`).
 
+pub mod access;
 mod graphics;
 pub mod page;
 
@@ -121,6 +122,7 @@ struct Watcher {
     unknown: Option<String>,
     /// Was the film made smaller because the memory was used up?
     halved: bool,
+    access: access::Access,
     lang: Option<Lang>,
     alerts: String,
     drawn: bool,
@@ -129,7 +131,9 @@ struct Watcher {
 
 impl Watcher {
     /// `news`: how the window is drawn, if that has changed.
-    fn pass(&mut self, Pass { app, .. }: Pass<'_>, news: Option<Drawn>) {
+    fn pass(&mut self, mut pass: Pass<'_>, news: Option<Drawn>) {
+        self.access.update(&mut pass);
+        let Pass { app, .. } = pass;
         let state = app.state_mut();
         let lang = state.prefs.lang;
         if let Some(drawn) = news {

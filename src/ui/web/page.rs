@@ -63,11 +63,6 @@ pub fn alert(text: &str) {
     say("alerts", text);
 }
 
-/// The summary of what is selected, for those who listen to the page.
-pub fn summary(text: &str) {
-    say("summary", text);
-}
-
 fn say(id: &str, text: &str) {
     // A region that is written again is read out again.
     if let Some(region) = element(id).filter(|region| region.text_content().as_deref() != Some(text)) {
@@ -96,7 +91,9 @@ pub fn new_canvas() -> Result<HtmlCanvasElement, String> {
     let make = || {
         let (document, stage) = (document()?, element("stage")?);
         let canvas = document.create_element("canvas").ok()?.dyn_into::<HtmlCanvasElement>().ok()?;
-        for (name, value) in [("id", "canvas"), ("role", "application"), ("aria-label", "BDPT explorer"), ("aria-describedby", "summary")] {
+        for (name, value) in
+            [("id", "canvas"), ("role", "application"), ("aria-label", "BDPT explorer"), ("aria-describedby", "summary-now")]
+        {
             canvas.set_attribute(name, value).ok()?;
         }
         stage.set_text_content(None);
