@@ -2,16 +2,14 @@
 
 use super::edit::history::Snapshot;
 use super::image_view::Desk;
+use super::link::{self, Share};
 use super::live::{Live, SceneSource};
 use super::pictures::Pictures;
-use super::state::{Maximised, Opening, Preferences, State};
+use super::state::{Maximised, Preferences, State};
 use super::summary::{self, Summary};
-use super::text::{Text, fill};
 use super::wake::Wake;
-use super::{
-    fonts, help, image_view, inspector, keys, messages, phone, pyramid, scene_menu, space, status_bar, theme, top_bar, touch, tour,
-};
-use eframe::egui::{self, Align2, CentralPanel, Color32, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
+use super::{files, fonts, help, image_view, inspector, keys, messages, phone, pyramid, space, status_bar, theme, top_bar, touch, tour};
+use eframe::egui::{self, CentralPanel, Color32, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
 use eframe::egui_wgpu::RenderState;
 use web_time::Instant;
 
@@ -52,9 +50,10 @@ impl App {
         theme::install(ctx);
         let wake = Wake::new(ctx);
         let mut live = Live::new(&wake);
-        live.open(start.source);
+        let mut state = State::new(preferences.unwrap_or_else(Preferences::first), start.size);
+        live.open(start.source, &mut state);
         Self {
-            state: State::new(preferences.unwrap_or_else(Preferences::first), start.size),
+            state,
             live,
             desk: Desk::new(ctx, &wake),
             wake,
@@ -96,6 +95,22 @@ impl App {
     /// What is selected, in words; `None` while there is no sample.
     pub fn summary(&self) -> Option<Summary> {
         summary::now(&self.state, &self.live)
+    }
+
+    /// A link to what is on show, from the # on; empty while nothing is. While the scene of the last link is not on show yet, that
+    /// link.
+    pub fn link(&self) -> String {
+        link::text(&self.state, &self.live).0
+    }
+
+    /// Shows what a link is about: a whole address, or its part from # on. What cannot be followed is said.
+    pub fn open_link(&mut self, link: &str) {
+        link::open(&mut self.state, &self.live, link);
+    }
+
+    /// From now on, links that are copied start with this address (which has no #).
+    pub fn set_link_base(&mut self, address: String) {
+        self.state.link.base = address;
     }
 
     /// Where the centre of a pixel is on the screen.
@@ -141,6 +156,9 @@ impl App {
         }
         Panel::bottom("status bar").frame(slim).show(ui, |ui| status_bar::show(ui, state, live, self.ui_ms));
         let body = Frame::central_panel(ui.style()).fill(Color32::TRANSPARENT).inner_margin(Margin::symmetric(10, 8));
+        if std::mem::take(&mut state.link.resized) {
+            link::let_go(ui);
+        }
         let whole = CentralPanel::default().frame(body);
         match state.maximised {
             Maximised::Pyramid => return drop(whole.show(ui, |ui| pyramid::show(ui, state, live, pictures))),
@@ -150,15 +168,18 @@ impl App {
             Maximised::None => {
                 let room = ui.available_size();
                 if state.prefs.inspector_open {
-                    let panel = Panel::right("inspector")
-                        .frame(body)
-                        .default_size((room.x * 0.36).min(470.0))
-                        .size_range(340.0..=(room.x - IMAGE_ROOM.x).max(340.0));
-                    panel.show(ui, |ui| inspector::show(ui, state, live));
+                    let share = Share::of(state.shares[0], room.x, (room.x * 0.36).min(470.0));
+                    let panel = Panel::right("inspector").frame(body).default_size(share.size());
+                    let panel = panel.size_range(340.0..=(room.x - IMAGE_ROOM.x).max(340.0));
+                    let shown = panel.show(ui, |ui| inspector::show(ui, state, live)).response.rect;
+                    state.shares[0] = share.seen(shown.width());
                 }
                 if state.prefs.pyramid_open {
-                    let panel = Panel::bottom("pyramid").frame(body).resizable(true).default_size((room.y * 0.43).min(PYRAMID_HEIGHT));
-                    panel.size_range(130.0..=(room.y - IMAGE_ROOM.y).max(130.0)).show(ui, |ui| pyramid::show(ui, state, live, pictures));
+                    let share = Share::of(state.shares[1], room.y, (room.y * 0.43).min(PYRAMID_HEIGHT));
+                    let panel = Panel::bottom("pyramid").frame(body).resizable(true).default_size(share.size());
+                    let panel = panel.size_range(130.0..=(room.y - IMAGE_ROOM.y).max(130.0));
+                    let shown = panel.show(ui, |ui| pyramid::show(ui, state, live, pictures)).response.rect;
+                    state.shares[1] = share.seen(shown.height());
                 }
                 let room = ui.available_size();
                 state.narrow = room.x < SIDE_BY_SIDE;
@@ -166,36 +187,15 @@ impl App {
                     return drop(whole.show(ui, |ui| space::show(ui, state, live, stage, gpu)));
                 }
                 if state.prefs.space_open && !state.narrow {
-                    let panel = Panel::right("space").frame(body).resizable(true).default_size(room.x * 0.5);
-                    panel.size_range(200.0..=(room.x - 240.0).max(200.0)).show(ui, |ui| space::show(ui, state, live, stage, gpu));
+                    let share = Share::of(state.shares[2], room.x, room.x * 0.5);
+                    let panel = Panel::right("space").frame(body).resizable(true).default_size(share.size());
+                    let panel = panel.size_range(200.0..=(room.x - 240.0).max(200.0));
+                    let shown = panel.show(ui, |ui| space::show(ui, state, live, stage, gpu)).response.rect;
+                    state.shares[2] = share.seen(shown.width());
                 }
             }
         }
         self.image = whole.show(ui, |ui| image_view::show(ui, state, live, desk)).inner;
-    }
-
-    /// Files dropped on the window, and the invitation to drop them.
-    fn drops(&mut self, ui: &Ui) {
-        for file in ui.input(|input| input.raw.dropped_files.clone()) {
-            let path = file.path();
-            let name = path.display().to_string();
-            match path.extension().and_then(|end| end.to_str()).map(str::to_ascii_lowercase).as_deref() {
-                Some("glb" | "gltf") => {
-                    // An environment dropped together with it lights it.
-                    let environment = self.state.open.take().and_then(|opening| opening.environment);
-                    self.state.open = Some(Opening { environment, ..Opening::of(name) });
-                }
-                Some("hdr" | "exr") => scene_menu::surround(&mut self.state, &self.live, path),
-                _ => self.state.tell(true, fill(self.state.say(Text::NotAScene), &[&name])),
-            }
-        }
-        if ui.input(|input| !input.raw.hovered_files.is_empty()) {
-            let screen = ui.content_rect();
-            let painter = ui.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop")));
-            painter.rect_filled(screen, 0.0, egui::Color32::from_black_alpha(170));
-            let font = egui::FontId::proportional(24.0);
-            painter.text(screen.center(), Align2::CENTER_CENTER, self.state.say(Text::DropHere), font, egui::Color32::WHITE);
-        }
     }
 }
 
@@ -212,9 +212,11 @@ impl eframe::App for App {
         keys::obey(ui.ctx(), &mut self.state, image_view::id());
         self.pictures.collect(ui.ctx());
         self.desk.darkroom.collect(ui.ctx());
-        self.drops(ui);
+        files::drops(ui, &mut self.state, &self.live);
         self.panels(ui, frame.wgpu_render_state());
         help::show(ui.ctx(), &mut self.state);
+        link::copy(ui.ctx(), &mut self.state, &self.live);
+        link::show_copied(ui.ctx(), &mut self.state);
         keys::release_after_click(ui.ctx());
         // What was changed just now is on its way before the next pass.
         let ctx = ui.ctx().clone();

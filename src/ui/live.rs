@@ -5,10 +5,11 @@ mod shown;
 
 use super::checks::Runner;
 use super::compare::Pair;
-use super::edit::dialog::Dialog;
 use super::edit::reload::Reload;
 use super::export::{Saver, Sources};
+use super::files::Intake;
 use super::inspector;
+use super::link;
 use super::loader::Loader;
 use super::state::{Opening, State};
 use super::study;
@@ -35,6 +36,8 @@ pub enum SceneSource {
     Named(String),
     /// In memory already.
     Ready(Arc<Scene>),
+    /// What a link is about.
+    Link(String),
 }
 
 /// What a record depends on.
@@ -52,7 +55,7 @@ pub struct Live {
     /// Follows the file of the scene on show, and of the one being loaded.
     reload: Reload,
     reading: Reload,
-    dialog: Dialog,
+    intake: Intake,
     engine: Option<Engine>,
     /// The scene to show, and the one the engine accepted last.
     shown: Option<Shown>,
@@ -83,7 +86,7 @@ impl Live {
             loader: Loader::new(wake),
             reload: Reload::default(),
             reading: Reload::default(),
-            dialog: Dialog::default(),
+            intake: Intake::new(wake),
             engine: None,
             shown: None,
             running: None,
@@ -105,13 +108,14 @@ impl Live {
     }
 
     /// Starts with a scene.
-    pub fn open(&mut self, source: SceneSource) {
+    pub fn open(&mut self, source: SceneSource, state: &mut State) {
         match source {
             SceneSource::Ready(scene) => {
                 let opening = Opening::of(scene.name.as_str());
                 self.shown = Some(Shown::new(scene, opening));
             }
             SceneSource::Named(name) => self.load(Opening::of(name)),
+            SceneSource::Link(text) => link::open(state, self, &text),
         }
     }
 
@@ -173,6 +177,11 @@ impl Live {
     /// How far it is, in a sentence; that nothing is loaded, if so.
     pub fn loading_text(&self, state: &State) -> String {
         self.loader.sentence(state)
+    }
+
+    /// Where files come in.
+    pub fn intake(&self) -> &Intake {
+        &self.intake
     }
 
     /// What is rendered, or about to be: a change to it starts from here.
@@ -273,6 +282,7 @@ impl Live {
 
     fn sync_job(&mut self, state: &mut State) -> bool {
         let Some(shown) = self.shown.clone() else { return false };
+        let sampled = std::mem::take(&mut state.link.sampled);
         let current = self.engine.as_ref().map(Engine::job);
         let same_but_for_dragging = current.is_some_and(|job| {
             self.running.as_ref().is_some_and(|old| Arc::ptr_eq(&old.file, &shown.file))
@@ -283,7 +293,7 @@ impl Live {
         if same_but_for_dragging && (current.is_some_and(undragged) || self.picture_is_coming()) {
             return false;
         }
-        let moved = self.running.as_ref().is_some_and(|old| old.opening.scene != shown.opening.scene);
+        let moved = self.running.as_ref().is_some_and(|old| !old.opening.same_file(&shown.opening));
         state.restart = false;
         let job = Job {
             camera: state.camera,
@@ -305,7 +315,7 @@ impl Live {
         state.retract(self.refused.take());
         self.refused = result.as_ref().err().map(|error| error.0.clone());
         match result {
-            Ok(()) if moved => state.selection.sample = 0,
+            Ok(()) if moved && !sampled => state.selection.sample = 0,
             Ok(()) => {}
             Err(error) => {
                 // The old rendering goes on: the state says what is running.

@@ -8,7 +8,7 @@ use eframe::egui::{Align, Label, Layout, RichText, ScrollArea, Ui};
 pub fn show(ui: &mut Ui, state: &mut State) {
     if state.phone {
         // Several long ones must not push the rest out of the window.
-        let most = 0.35 * ui.ctx().content_rect().height();
+        let most = 0.25 * ui.ctx().content_rect().height();
         return drop(ScrollArea::vertical().id_salt("messages").min_scrolled_height(most).max_height(most).show(ui, |ui| list(ui, state)));
     }
     list(ui, state);

@@ -29,8 +29,9 @@ pub struct Views<'a> {
 
 /// The image's share of the room it divides with another panel.
 const SHARE: f32 = 0.5;
-/// A panel has at least so much, points.
+/// A panel has at least so much, and the image with its toolbar, points.
 const LEAST: f32 = 120.0;
+const IMAGE: f32 = 230.0;
 
 /// Shows everything. Returns where the film is, if it is shown.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live, views: Views<'_>) -> Option<Rect> {
@@ -85,7 +86,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, views: Views<'_>) -> Op
     if alone(state.beside) && state.maximised == Maximised::None {
         let room = if wide { ui.available_width() } else { ui.available_height() };
         let side = if wide { Panel::right("phone beside") } else { Panel::bottom("phone below") };
-        let side = side.frame(body).resizable(true).default_size(SHARE * room).size_range(LEAST..=(room - LEAST).max(LEAST));
+        let side = side.frame(body).resizable(true).default_size(SHARE * room).size_range(LEAST..=(room - IMAGE).max(LEAST));
         side.show(ui, |ui| panel(ui, state, state.beside));
     }
     Some(whole.show(ui, |ui| image_view::show(ui, state, live, desk)).inner)

@@ -2,6 +2,7 @@
 
 use super::export;
 use super::keys::{self, Action};
+use super::link;
 use super::live::Live;
 use super::state::State;
 use super::text::{Lang, Text};
@@ -77,6 +78,7 @@ fn window_switches(ui: &mut Ui, state: &mut State) {
     let label = state.say(Text::Pyramid);
     ui.toggle_value(&mut state.prefs.pyramid_open, label).on_hover_text(help);
     ui.separator();
+    link::button(ui, state);
     let (name, other) = match state.prefs.lang {
         Lang::En => ("中文", Lang::Zh),
         Lang::Zh => ("English", Lang::En),

@@ -49,6 +49,11 @@ fn bare() -> Harness<'static, App> {
     (shown.eye, shown.light, shown.connections, shown.blocked, shown.splats) = (false, false, false, false, false);
     // Large targets first: they move the image.
     window.state_mut().state_mut().touch = true;
+    until(&mut window, "a whole pass", |app| app.live().first_pass().is_none());
+    // And what grows with the number of samples: it moves the image, too.
+    window.state_mut().state_mut().paused = true;
+    window.run_steps(4);
+    std::thread::sleep(Duration::from_millis(200));
     window.run_steps(4);
     window
 }

@@ -92,7 +92,7 @@ fn tabs(ui: &mut Ui, state: &mut State) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         if state.phone {
-            (ui.spacing_mut().item_spacing.x, ui.spacing_mut().button_padding.x) = (2.0, 5.0);
+            (ui.spacing_mut().item_spacing.x, ui.spacing_mut().button_padding.x) = (2.0, 6.0);
         }
         for (tab, name, help) in [
             (Tab::Strategies, state.say(Text::TabStrategies), state.say(Text::HelpTabStrategies)),

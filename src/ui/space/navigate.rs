@@ -23,10 +23,14 @@ const CLOSE: f32 = 0.5;
 /// Puts the camera where a scene that was not shown before is seen best.
 pub fn place(state: &mut State, live: &Live, job: &Job, panel: Rect) {
     let wanted = live.opened().map(|opening| (opening.scene.clone(), opening.inside.clone()));
-    if state.space.placed != wanted {
+    let arrival = state.space.arrival.take();
+    if state.space.placed != wanted || arrival.is_some() {
         state.space.placed = wanted;
-        state.space.through = false;
         all(state, job, panel);
+    }
+    if let Some(arrival) = arrival {
+        state.space.orbit = arrival.orbit.unwrap_or(state.space.orbit);
+        (state.space.through, state.space.followed) = (arrival.through, Some(state.selection));
     }
 }
 
@@ -42,6 +46,7 @@ fn all(state: &mut State, job: &Job, panel: Rect) {
     }
     let nearest = 1e-3 * job.scene.sphere.radius;
     state.space.orbit.frame(&points, half_extent(&state.space.orbit, panel), nearest);
+    state.space.home = Some(state.space.orbit);
 }
 
 /// Half the picture on the plane at distance 1.
