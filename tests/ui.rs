@@ -55,6 +55,8 @@ mod measure;
 mod memory;
 #[path = "ui/numbers.rs"]
 mod numbers;
+#[path = "ui/phone.rs"]
+mod phone;
 #[path = "ui/pixel.rs"]
 mod pixel;
 #[path = "ui/random.rs"]
@@ -75,10 +77,14 @@ mod space;
 mod space_looks;
 #[path = "ui/study.rs"]
 mod study;
+#[path = "ui/summary.rs"]
+mod summary;
 #[path = "ui/surfaces.rs"]
 mod surfaces;
 #[path = "ui/surroundings.rs"]
 mod surroundings;
+#[path = "ui/touch.rs"]
+mod touch;
 #[path = "ui/tour.rs"]
 mod tour;
 #[path = "ui/view.rs"]

@@ -6,6 +6,7 @@ use super::link::{self, Share};
 use super::live::{Live, SceneSource};
 use super::pictures::Pictures;
 use super::state::{Maximised, Preferences, State};
+use super::summary::{self, Summary};
 use super::wake::Wake;
 use super::{files, fonts, help, image_view, inspector, keys, messages, phone, pyramid, space, status_bar, theme, top_bar, touch, tour};
 use eframe::egui::{self, CentralPanel, Color32, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
@@ -49,7 +50,7 @@ impl App {
         theme::install(ctx);
         let wake = Wake::new(ctx);
         let mut live = Live::new(&wake);
-        let mut state = State::new(preferences.unwrap_or_default(), start.size);
+        let mut state = State::new(preferences.unwrap_or_else(Preferences::first), start.size);
         live.open(start.source, &mut state);
         Self {
             state,
@@ -89,6 +90,11 @@ impl App {
     /// What runs.
     pub fn live(&self) -> &Live {
         &self.live
+    }
+
+    /// What is selected, in words; `None` while there is no sample.
+    pub fn summary(&self) -> Option<Summary> {
+        summary::now(&self.state, &self.live)
     }
 
     /// A link to what is on show, from the # on; empty while nothing is. While the scene of the last link is not on show yet, that

@@ -25,7 +25,7 @@ const LINE: f32 = 15.0;
 const CAPTION: f32 = 2.0 * LINE + 4.0;
 
 /// A cell narrower than this has no room for two fingers' targets beside each other, points.
-const FINGERS: f32 = 96.0;
+const FINGERS: f32 = 112.0;
 
 /// The size of a cell: as wide as chosen, with the film's shape.
 pub fn size(state: &State) -> Vec2 {

@@ -28,6 +28,11 @@ pub fn show(ctx: &egui::Context, state: &mut State) {
                     ui.label(state.say(row.text));
                     ui.end_row();
                 }
+                for (keys, text) in keys::PAGE {
+                    ui.label(RichText::new(*keys).monospace());
+                    ui.label(state.say(*text));
+                    ui.end_row();
+                }
                 ui.label(RichText::new(state.say(Text::HelpKeysSpace)).strong());
                 ui.end_row();
                 for row in keys::SPACE {
@@ -66,6 +71,7 @@ fn small(ctx: &egui::Context, state: &mut State) {
             notes(ui, state);
             ui.separator();
             let rows = keys::TABLE.iter().map(|row| (row.shown, state.say(row.text)));
+            let rows = rows.chain(keys::PAGE.iter().map(|(keys, text)| (*keys, state.say(*text))));
             for (keys, text) in rows.chain(keys::SPACE.iter().map(|row| (row.shown, state.say(row.text)))) {
                 ui.label(RichText::new(keys).monospace().strong());
                 ui.label(text);

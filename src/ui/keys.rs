@@ -4,7 +4,7 @@ use super::edit::history;
 use super::inspector;
 use super::space;
 use super::state::{Placement, Source, State};
-use super::text::{SpaceText, Text, Words};
+use super::text::{SpaceText, SummaryText, Text, Words};
 use crate::bdpt::Strategy;
 use crate::engine::Mode;
 use eframe::egui;
@@ -132,6 +132,9 @@ pub const SPACE: &[SpaceBinding] = &[
     SpaceBinding { action: Action::Dolly, shown: "+, −", text: SpaceText::KeyDolly, keys: &[Key::Plus, Key::Equals, Key::Minus] },
     SpaceBinding { action: Action::Fly, shown: "W A S D Q E", text: SpaceText::KeyFly, keys: FLIGHT },
 ];
+
+/// What the page around the window does with a key: the keys as they are written, and the words.
+pub const PAGE: &[(&str, SummaryText)] = if cfg!(target_arch = "wasm32") { &[("F6", SummaryText::KeyLeave)] } else { &[] };
 
 /// A row of that table.
 pub struct SpaceBinding {

@@ -2,7 +2,7 @@
 
 use super::render_menu::menu;
 use super::state::{Maximised, Preferences, State};
-use super::text::{Lang, LooksText, Text, TourText};
+use super::text::{Lang, LooksText, SummaryText, Text, TourText};
 use eframe::egui::Ui;
 use eframe::egui::containers::panel::PanelState;
 
@@ -38,6 +38,10 @@ pub fn contents(ui: &mut Ui, state: &mut State) {
         ui.radio_value(&mut prefs.lang, other, name);
     }
     ui.separator();
+    if cfg!(target_arch = "wasm32") {
+        let name = SummaryText::TextView.in_language(lang);
+        ui.checkbox(&mut state.text_view, name).on_hover_text(SummaryText::HelpTextView.in_language(lang));
+    }
     if ui.button(LooksText::ResetLayout.in_language(lang)).on_hover_text(LooksText::HelpResetLayout.in_language(lang)).clicked() {
         reset_layout(ui, state);
     }

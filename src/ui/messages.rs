@@ -8,13 +8,17 @@ use eframe::egui::{Align, Label, Layout, RichText, ScrollArea, Ui};
 pub fn show(ui: &mut Ui, state: &mut State) {
     if state.phone {
         // Several long ones must not push the rest out of the window.
-        let most = 0.35 * ui.ctx().content_rect().height();
-        return drop(ScrollArea::vertical().id_salt("messages").max_height(most).show(ui, |ui| list(ui, state)));
+        let most = 0.25 * ui.ctx().content_rect().height();
+        return drop(ScrollArea::vertical().id_salt("messages").min_scrolled_height(most).max_height(most).show(ui, |ui| list(ui, state)));
     }
     list(ui, state);
 }
 
+/// With less room a sentence has a row of its own, points.
+const LEAST: f32 = 740.0;
+
 fn list(ui: &mut Ui, state: &mut State) {
+    let low = ui.available_width() < LEAST;
     let mut dismissed = None;
     for (index, message) in state.messages.iter().enumerate() {
         ui.horizontal(|ui| {
@@ -25,14 +29,14 @@ fn list(ui: &mut Ui, state: &mut State) {
                 if ui.button(state.say(Text::Dismiss)).clicked() {
                     dismissed = Some(index);
                 }
-                if !state.phone {
+                if !low {
                     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                         ui.add(Label::new(message.text.as_str()).truncate()).on_hover_text(message.text.as_str());
                     });
                 }
             });
         });
-        if state.phone {
+        if low {
             ui.add(Label::new(message.text.as_str()).wrap());
         }
     }

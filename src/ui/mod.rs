@@ -42,12 +42,14 @@ mod projection;
 mod pyramid;
 mod pyramid_menus;
 mod render_menu;
+mod room;
 mod scene_menu;
 mod slot;
 mod space;
 pub mod state;
 mod status_bar;
 mod study;
+mod summary;
 pub mod text;
 mod theme;
 mod top_bar;
@@ -65,6 +67,7 @@ pub use inspector::weights as inspector_weights;
 pub use live::{Live, SceneSource};
 #[cfg(not(target_arch = "wasm32"))]
 pub use native::{Hooks, WindowError, open, run};
+pub use summary::{Block, Row, Summary, html as summary_html};
 #[cfg(target_arch = "wasm32")]
 pub use web::run;
 pub use window::{EveryPass, Pass};

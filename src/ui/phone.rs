@@ -8,7 +8,10 @@ use super::pictures::Pictures;
 use super::state::{Maximised, State};
 use super::text::{ExportText, LooksText, PhoneText, SpaceText, Text, Words};
 use super::{export, image_view, inspector, looks_menu, messages, pyramid, render_menu, scene_menu, space, status_bar, top_bar, tour};
-use eframe::egui::{Button, CentralPanel, Color32, Frame, Margin, Panel, Rect, RichText, ScrollArea, Ui, WidgetInfo, vec2};
+use eframe::egui::{
+    Button, CentralPanel, Color32, Frame, Margin, Panel, Rect, RichText, Role, ScrollArea, TextStyle, TextWrapMode, Ui, WidgetInfo,
+    WidgetText, vec2,
+};
 use eframe::egui_wgpu::RenderState;
 
 /// What the panels are drawn with.
@@ -27,8 +30,9 @@ pub struct Views<'a> {
 
 /// The image's share of the room it divides with another panel.
 const SHARE: f32 = 0.5;
-/// A panel has at least so much, points.
+/// A panel has at least so much, and the image with its toolbar, points.
 const LEAST: f32 = 120.0;
+const IMAGE: f32 = 230.0;
 
 /// Shows everything. Returns where the film is, if it is shown.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live, views: Views<'_>) -> Option<Rect> {
@@ -44,7 +48,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, views: Views<'_>) -> Op
             top_bar::pause(ui, state);
             if wide {
                 ui.separator();
-                tabs(ui, state, 0.0);
+                tabs(ui, state, None);
             }
         });
     });
@@ -56,8 +60,10 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, views: Views<'_>) -> Op
     }
     if !wide {
         Panel::bottom("phone tabs").frame(thick).show(ui, |ui| {
-            let width = (ui.available_width() - 40.0 - 4.0 * GAP) / TABS.len() as f32;
-            ui.horizontal(|ui| tabs(ui, state, width));
+            ui.horizontal(|ui| {
+                let room = ui.available_width();
+                tabs(ui, state, Some(room));
+            });
         });
     }
     Panel::bottom("phone status").frame(slim).show(ui, |ui| status_bar::show(ui, state, live, views.ui_ms));
@@ -81,7 +87,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, views: Views<'_>) -> Op
     if alone(state.beside) && state.maximised == Maximised::None {
         let room = if wide { ui.available_width() } else { ui.available_height() };
         let side = if wide { Panel::right("phone beside") } else { Panel::bottom("phone below") };
-        let side = side.frame(body).resizable(true).default_size(SHARE * room).size_range(LEAST..=(room - LEAST).max(LEAST));
+        let side = side.frame(body).resizable(true).default_size(SHARE * room).size_range(LEAST..=(room - IMAGE).max(LEAST));
         side.show(ui, |ui| panel(ui, state, state.beside));
     }
     Some(whole.show(ui, |ui| image_view::show(ui, state, live, desk)).inner)
@@ -90,20 +96,27 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, views: Views<'_>) -> Op
 const GAP: f32 = 4.0;
 const TABS: [Maximised; 4] = [Maximised::Image, Maximised::Space, Maximised::Inspector, Maximised::Pyramid];
 
-/// The tabs, and the button that gives the panel on show all the room; `width` of a tab, at least.
-fn tabs(ui: &mut Ui, state: &mut State, width: f32) {
+/// The tabs, and the button that gives the panel on show all the room; they fill `room`.
+fn tabs(ui: &mut Ui, state: &mut State, room: Option<f32>) {
     ui.spacing_mut().item_spacing.x = GAP;
     let front = if state.maximised == Maximised::None { state.beside } else { state.maximised };
     let height = ui.spacing().interact_size.y;
-    for tab in TABS {
-        let name = match tab {
-            Maximised::Space => state.say(Text::Space),
-            Maximised::Inspector => state.say(Text::Inspector),
-            Maximised::Pyramid => state.say(Text::Pyramid),
-            _ => state.say(PhoneText::Image),
-        };
+    let names = TABS.map(|tab| match tab {
+        Maximised::Space => state.say(Text::Space),
+        Maximised::Inspector => state.say(Text::Inspector),
+        Maximised::Pyramid => state.say(Text::Pyramid),
+        _ => state.say(PhoneText::Image),
+    });
+    let natural = names.map(|name| {
+        let text = WidgetText::from(name).into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, TextStyle::Button);
+        (text.size().x + 2.0 * ui.spacing().button_padding.x).max(height)
+    });
+    // What is left is shared out.
+    let taken = natural.iter().map(|width| width + GAP).sum::<f32>() + height;
+    let more = room.map_or(0.0, |room| ((room - taken) / TABS.len() as f32 - 0.5).max(0.0));
+    for ((tab, name), width) in TABS.into_iter().zip(names).zip(natural) {
         let chosen = front == tab && !state.menu;
-        if ui.add(Button::selectable(chosen, name).min_size(vec2(width, height))).clicked() {
+        if ui.add(Button::selectable(chosen, name).min_size(vec2(width + more, height))).clicked() {
             (state.beside, state.maximised, state.menu) = (tab, Maximised::None, false);
         }
     }
@@ -118,7 +131,7 @@ fn tabs(ui: &mut Ui, state: &mut State, width: f32) {
 }
 
 fn named(state: &State, text: impl Words, on: bool) -> WidgetInfo {
-    WidgetInfo::selected(eframe::egui::Role::Button, true, on, state.say(text))
+    WidgetInfo::selected(Role::Button, true, on, state.say(text))
 }
 
 /// What does not fit into the top bar.
@@ -130,6 +143,10 @@ fn menu(ui: &mut Ui, state: &mut State, live: &Live) {
             }
             link::button(ui, state);
         });
+        // In full, what the status bar has no room for.
+        for sentence in live.frame().map(|frame| status_bar::renderer(state, &frame.stats)).into_iter().flatten() {
+            ui.label(RichText::new(sentence).small().weak());
+        }
         ui.separator();
         ui.horizontal_wrapped(|ui| top_bar::estimator(ui, state, live));
         head(ui, state, LooksText::Rendering);

@@ -104,6 +104,16 @@ pub struct Preferences {
     pub bookmarks: BTreeMap<String, Vec<Bookmark>>,
 }
 
+impl Preferences {
+    /// Those of a first start: in a page, as the browser is set.
+    pub fn first() -> Self {
+        #[cfg(target_arch = "wasm32")]
+        return super::web::access::preferences();
+        #[cfg(not(target_arch = "wasm32"))]
+        Self::default()
+    }
+}
+
 impl Default for Preferences {
     fn default() -> Self {
         Self {

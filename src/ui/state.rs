@@ -10,13 +10,14 @@ pub use super::image_view::ViewState;
 pub use super::inspector::{Bars, InspectState};
 use super::link::LinkState;
 pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};
+pub use super::room::Maximised;
 pub use super::space::SpaceState;
 pub use super::study::StudyState;
 use super::text::{Lang, Text, Words};
 pub use super::touch::Fingers;
 pub use super::tour::Before;
 use crate::bdpt::{Existence, Settings, Strategy, StrategySet};
-use crate::engine::{Backend, Mode};
+use crate::engine::Backend;
 use crate::film::tonemap::{Look, ToneMap};
 use crate::scene::environment::EnvironmentSource;
 use crate::scene::files::Files;
@@ -59,21 +60,6 @@ pub enum Walk {
     Light,
     /// z₀, z₁, …
     Eye,
-}
-
-/// The panel that has the window for itself.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Maximised {
-    /// Side by side.
-    None,
-    /// The image.
-    Image,
-    /// The 3-D view.
-    Space,
-    /// The inspector.
-    Inspector,
-    /// The pyramid.
-    Pyramid,
 }
 
 /// An environment chosen by the person; it replaces the file's.
@@ -178,6 +164,8 @@ pub struct State {
     pub beside: Maximised,
     /// Then, the menu has the room of the panels.
     pub menu: bool,
+    /// In a page: is the summary in words shown beside the window?
+    pub text_view: bool,
     /// Is it used with fingers?
     pub touch: bool,
     /// The fingers on it.
@@ -242,6 +230,7 @@ impl State {
             phone: false,
             beside: Maximised::Inspector,
             menu: false,
+            text_view: false,
             touch: false,
             fingers: Fingers::default(),
             help: false,
@@ -275,35 +264,6 @@ impl State {
         self.prefs.backend = backend;
         if let Some(drawn) = &mut self.drawn {
             drawn.renders = None;
-        }
-    }
-
-    /// Shows a strategy's picture in the image view, and that in front of what would hide it.
-    pub fn open_large(&mut self, strategy: Strategy, mode: Mode) {
-        self.compare.a = Source::Strategy(strategy, mode);
-        (self.compare.flipped, self.space_in_front, self.menu) = (false, false, false);
-        if self.maximised != Maximised::Image {
-            self.maximised = Maximised::None;
-        }
-    }
-
-    /// Can the image view be seen?
-    pub fn image_on_show(&self) -> bool {
-        match self.maximised {
-            Maximised::Image => true,
-            Maximised::None if self.phone => !self.menu,
-            Maximised::None => !(self.narrow && self.space_in_front),
-            Maximised::Space | Maximised::Inspector | Maximised::Pyramid => false,
-        }
-    }
-
-    /// Can the pyramid be seen?
-    pub fn pyramid_on_show(&self) -> bool {
-        match self.maximised {
-            Maximised::Pyramid => true,
-            Maximised::None if self.phone => self.beside == Maximised::Pyramid,
-            Maximised::None => self.prefs.pyramid_open,
-            Maximised::Image | Maximised::Space | Maximised::Inspector => false,
         }
     }
 
@@ -396,18 +356,6 @@ mod tests {
         state.settings.max_edges = 0;
         state.clamp();
         assert_eq!((state.settings.max_edges, state.selection.strategy.edges()), (1, 1));
-    }
-
-    #[test]
-    fn what_is_opened_large_can_be_seen() {
-        let mut state = State::new(Preferences::default(), [64, 64]);
-        for maximised in [Maximised::None, Maximised::Image, Maximised::Space, Maximised::Inspector, Maximised::Pyramid] {
-            (state.maximised, state.narrow, state.space_in_front, state.compare.flipped) = (maximised, true, true, true);
-            assert_eq!(state.image_on_show(), maximised == Maximised::Image);
-            state.open_large(Strategy::new(1, 2), Mode::Raw);
-            assert!(state.image_on_show() && !state.compare.flipped);
-            assert_eq!(state.compare.a, Source::Strategy(Strategy::new(1, 2), Mode::Raw));
-        }
     }
 
     #[test]

@@ -25,6 +25,8 @@ impl Item {
 
 /// Shows the bar; `ui_ms` is the time the last pass of the window took.
 pub fn show(ui: &mut Ui, state: &State, live: &Live, ui_ms: f32) {
+    // Nothing in it is clicked.
+    ui.spacing_mut().interact_size.y = HEIGHT;
     ui.horizontal(|ui| {
         ui.style_mut().override_text_style = Some(egui::TextStyle::Small);
         ui.spacing_mut().item_spacing.x = GAP;
@@ -52,6 +54,7 @@ pub fn show(ui: &mut Ui, state: &State, live: &Live, ui_ms: f32) {
     });
 }
 
+const HEIGHT: f32 = 24.0;
 const GAP: f32 = 6.0;
 /// A word's distance to the next one, with the line between them.
 const STEP: f32 = 6.0 + 2.0 * GAP;
@@ -106,6 +109,14 @@ fn noticed(stats: &Stats, lang: Lang) -> Option<(String, bool)> {
         Notice::Compiling => Some((Text::Compiling.in_language(lang).to_owned(), false)),
         Notice::DeviceReplaced(why) => Some((fill(Text::DeviceReplaced.in_language(lang), &[why]), true)),
     }
+}
+
+/// Who renders and why, a sentence each.
+pub fn renderer(state: &State, stats: &Stats) -> Vec<String> {
+    let lang = state.prefs.lang;
+    let drawn = state.drawn.as_ref().and_then(|drawn| drawn.sentence(lang));
+    let notice = noticed(stats, lang).map(|(sentence, _)| sentence);
+    [Some(who_renders(stats, lang)), drawn, fell_back(stats, lang), notice].into_iter().flatten().collect()
 }
 
 fn rendering(ui: &Ui, state: &State, live: &Live, ui_ms: f32) -> Vec<Item> {

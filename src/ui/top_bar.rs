@@ -6,7 +6,7 @@ use super::link;
 use super::live::Live;
 use super::state::State;
 use super::text::{Lang, Text};
-use super::widgets::{finite, labelled};
+use super::widgets::{finite, keep_together, labelled};
 use super::{looks_menu, render_menu, scene_menu};
 use crate::bdpt::{HeuristicKind, Strategy, StrategySet};
 use eframe::egui::{Align, ComboBox, DragValue, Layout, Ui, UiBuilder};
@@ -38,6 +38,9 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
 pub fn estimator(ui: &mut Ui, state: &mut State, live: &Live) {
     integrator(ui, state, live);
     heuristic(ui, state);
+    if state.phone {
+        keep_together(ui, 70.0);
+    }
     numbers(ui, state);
 }
 
@@ -126,6 +129,9 @@ fn heuristic(ui: &mut Ui, state: &mut State) {
     });
     response.response.labelled_by(label.id).on_hover_text(state.say(Text::HelpHeuristic));
     let hint = |text: Text| text.in_language(state.prefs.lang);
+    if state.phone {
+        keep_together(ui, 70.0);
+    }
     let h = &mut state.settings.heuristic;
     match kind {
         HeuristicKind::Power => {

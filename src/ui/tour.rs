@@ -9,6 +9,9 @@ use eframe::egui::{Align, Label, Layout, RichText, Ui};
 /// The steps in turn.
 const STEPS: [TourText; 5] = [TourText::Pixel, TourText::Sample, TourText::Strategy, TourText::Hide, TourText::Splits];
 
+/// With less room the words have a row of their own, points.
+const LEAST: f32 = 740.0;
+
 /// What was so when the step began: a change of it is the step done.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Before {
@@ -46,6 +49,8 @@ pub fn show(ui: &mut Ui, state: &mut State) {
     }
     let Some(text) = STEPS.get(state.prefs.tour).copied() else { return };
     let (step, steps) = (state.prefs.tour + 1, STEPS.len());
+    let low = ui.available_width() < LEAST;
+    let sentence = if state.phone || state.touch { state.say(for_fingers(text)) } else { state.say(text) };
     ui.horizontal(|ui| {
         let words = fill(state.say(TourText::Step), &[&step.to_string(), &steps.to_string()]);
         ui.label(RichText::new(words).color(ui.visuals().weak_text_color()));
@@ -56,15 +61,15 @@ pub fn show(ui: &mut Ui, state: &mut State) {
             if ui.button(state.say(TourText::Later)).clicked() {
                 go_to(state, step);
             }
-            if !state.phone {
+            if !low {
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    ui.add(Label::new(RichText::new(state.say(text)).strong()).truncate()).on_hover_text(state.say(text));
+                    ui.add(Label::new(RichText::new(sentence).strong()).truncate()).on_hover_text(sentence);
                 });
             }
         });
     });
-    if state.phone {
-        ui.add(Label::new(RichText::new(state.say(for_fingers(text))).strong()).wrap());
+    if low {
+        ui.add(Label::new(RichText::new(sentence).strong()).wrap());
     }
 }
 

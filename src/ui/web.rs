@@ -1,6 +1,7 @@
 //! The window in a page: a canvas, drawn with WebGPU or WebGL 2. When the device it is drawn with is lost, it goes, and the same
 //! [`App`](super::App) goes on in a new one; what cannot go on says so on the page (`web/loader.js`).
 
+pub mod access;
 mod address;
 mod console;
 pub mod files;
@@ -128,6 +129,7 @@ struct Watcher {
     unknown: Option<String>,
     /// Was the film made smaller because the memory was used up?
     halved: bool,
+    access: access::Access,
     lang: Option<Lang>,
     alerts: String,
     drawn: bool,
@@ -138,11 +140,22 @@ impl Watcher {
     /// Nothing has been told yet.
     fn new(unknown: Option<&str>, halved: bool) -> Self {
         let (address, unknown) = (Address::new(halved), unknown.map(str::to_owned));
-        Self { address, unknown, halved, lang: None, alerts: String::new(), drawn: false, rendered: false }
+        Self {
+            address,
+            unknown,
+            halved,
+            lang: None,
+            alerts: String::new(),
+            drawn: false,
+            rendered: false,
+            access: access::Access::default(),
+        }
     }
 
     /// `news`: how the window is drawn, if that has changed.
-    fn pass(&mut self, Pass { app, ctx, .. }: Pass<'_>, news: Option<Drawn>) {
+    fn pass(&mut self, mut pass: Pass<'_>, news: Option<Drawn>) {
+        self.access.update(&mut pass);
+        let Pass { app, ctx, .. } = pass;
         self.address.pass(app, ctx);
         let loaded = app.live().scene().is_some() && app.live().loading().is_none();
         let state = app.state_mut();

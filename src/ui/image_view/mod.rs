@@ -66,8 +66,12 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, desk: &mut Desk) -> Rec
     });
     if state.phone {
         // The image keeps most of the room, whatever is open.
-        let most = 0.3 * ui.available_height();
-        ScrollArea::vertical().id_salt("open rows").max_height(most).show(ui, |ui| open_rows(ui, state, live, darkroom));
+        let most = 0.45 * ui.available_height();
+        ScrollArea::vertical()
+            .id_salt("open rows")
+            .min_scrolled_height(most)
+            .max_height(most)
+            .show(ui, |ui| open_rows(ui, state, live, darkroom));
     } else {
         open_rows(ui, state, live, darkroom);
     }

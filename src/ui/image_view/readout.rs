@@ -10,7 +10,7 @@ use super::super::widgets::{finite, full_name, keep_together, labelled};
 use super::Replayed;
 use crate::film::picture::pixel_of;
 use crate::math::Vec3;
-use eframe::egui::{DragValue, Label, RichText, Ui};
+use eframe::egui::{DragValue, Label, RichText, TextStyle, Ui};
 
 /// A view narrower than this has no room for words, points.
 const NARROW: f32 = 440.0;
@@ -89,7 +89,10 @@ fn brief(ui: &mut Ui, state: &State, live: &Live, replayed: &Replayed) {
         badge(ui, state, replayed);
     }
     if let Some((samples, mean)) = mean(state, live) {
-        if ui.available_size_before_wrap().x < 90.0 {
+        if state.phone {
+            ui.end_row();
+            ui.set_row_height(ui.text_style_height(&TextStyle::Small));
+        } else if ui.available_size_before_wrap().x < 90.0 {
             ui.end_row();
         }
         let name = fill(state.say(ViewText::MeanOf), &[&samples]);

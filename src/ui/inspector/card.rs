@@ -63,6 +63,20 @@ pub fn show(ui: &mut Ui, state: &State, card: &Card<'_>) -> Response {
     response
 }
 
+/// What a vertex is, and what is there.
+pub fn what(state: &State, vertex: &VertexRecord) -> String {
+    // A surface point that also shines is a surface first; everything else on a light is that kind of light.
+    let what = match (vertex.kind, vertex.light) {
+        ("lens", _) => state.say(Text::KindLens),
+        ("light" | "infinity", kind) => light_kind(kind.unwrap_or_default(), state.prefs.lang),
+        _ => state.say(Text::KindSurface),
+    };
+    let model = vertex.model.map(|model| material_kind(model, state.prefs.lang));
+    let names = [vertex.light_name.as_deref(), vertex.material.as_deref(), model];
+    let names = names.into_iter().flatten().filter(|name| !name.is_empty()).collect::<Vec<_>>().join(", ");
+    if names.is_empty() { what.to_owned() } else { format!("{what} · {names}") }
+}
+
 fn head(ui: &mut Ui, state: &State, card: &Card<'_>) {
     let (vertex, fresh) = (card.vertex, card.joined.is_some_and(|(fresh, _)| fresh));
     ui.horizontal_wrapped(|ui| {
@@ -75,16 +89,7 @@ fn head(ui: &mut Ui, state: &State, card: &Card<'_>) {
             ui.painter().circle_filled(rect.center(), 5.0, card.colour);
         }
         ui.label(RichText::new(&card.title).strong());
-        // A surface point that also shines is a surface first; everything else on a light is that kind of light.
-        let what = match (vertex.kind, vertex.light) {
-            ("lens", _) => state.say(Text::KindLens),
-            ("light" | "infinity", kind) => light_kind(kind.unwrap_or_default(), state.prefs.lang),
-            _ => state.say(Text::KindSurface),
-        };
-        let model = vertex.model.map(|model| material_kind(model, state.prefs.lang));
-        let names = [vertex.light_name.as_deref(), vertex.material.as_deref(), model];
-        let names = names.into_iter().flatten().filter(|name| !name.is_empty()).collect::<Vec<_>>().join(", ");
-        ui.label(if names.is_empty() { what.to_owned() } else { format!("{what} · {names}") });
+        ui.label(what(state, vertex));
         if fresh {
             let text = if vertex.kind == "lens" { Text::FreshLens } else { Text::FreshPoint };
             ui.label(RichText::new(state.say(text)).small().weak());

@@ -10,9 +10,12 @@ mod strategies;
 mod what_if;
 mod words;
 
+pub use card::what;
+pub use path::own_name;
 pub use pick::{eye_vertex, light_vertex};
 pub use search::{Goal, Search, start as start_search, sync as sync_search};
 pub use splits::Bars;
+pub use strategies::is_hidden;
 pub use what_if::weights;
 
 use super::cite::cite;
@@ -89,7 +92,7 @@ fn tabs(ui: &mut Ui, state: &mut State) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         if state.phone {
-            (ui.spacing_mut().item_spacing.x, ui.spacing_mut().button_padding.x) = (2.0, 5.0);
+            (ui.spacing_mut().item_spacing.x, ui.spacing_mut().button_padding.x) = (2.0, 6.0);
         }
         for (tab, name, help) in [
             (Tab::Strategies, state.say(Text::TabStrategies), state.say(Text::HelpTabStrategies)),
@@ -149,13 +152,13 @@ fn keep_in_sight(ui: &Ui, response: &Response, chosen: bool, state: &State) {
 }
 
 /// Why a strategy does not exist here, in a sentence.
-fn absence(state: &State, existence: &Existence, strategy: Strategy) -> Option<String> {
+pub fn absence(state: &State, existence: &Existence, strategy: Strategy) -> Option<String> {
     let sentence = absence_text(existence.absence(strategy)?, state.prefs.lang);
     Some(fill(state.say(Text::AbsentHere), &[sentence]))
 }
 
 /// Why a strategy contributes nothing to this sample: because it does not exist at all, or for a reason of its own.
-fn why_not(state: &State, existence: &Existence, record: &StrategyRecord) -> Option<String> {
+pub fn why_not(state: &State, existence: &Existence, record: &StrategyRecord) -> Option<String> {
     let reason = record.reason?;
     Some(absence(state, existence, record.strategy()).unwrap_or_else(|| reason_text(reason, state.prefs.lang).to_owned()))
 }

@@ -10,7 +10,7 @@ use crate::ui::{format, pictures, theme};
 use eframe::egui::{self, Color32, CornerRadius, FontId, Painter, Rect, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 const ROW: f32 = 24.0;
-/// A row narrower than this has no room for the bars of the weights, points.
+/// A row narrower than this, and as high as fingers need it, has two lines, points.
 const NARROW: f32 = 400.0;
 /// Width of "(1,2)" with the gap before it, points.
 const PAIR: f32 = 38.0;
@@ -27,17 +27,19 @@ impl Columns {
     fn of(row: Rect) -> Self {
         let x = |fraction: f32| row.left() + 8.0 + (row.width() - 16.0) * fraction;
         let column = |from: f32, to: f32| Rect::from_min_max(pos2(x(from), row.top()), pos2(x(to) - 6.0, row.bottom()));
-        if row.width() < NARROW {
-            // Names before bars.
-            return Self {
-                role: column(0.0, 0.52),
-                weight: column(0.52, 0.67),
-                contribution: column(0.67, 0.86),
-                raster: column(0.86, 1.03),
-            };
+        if in_two_lines(row) {
+            // The numbers below the name.
+            let (top, bottom) = row.split_top_bottom_at_fraction(0.5);
+            let low = |from: f32, to: f32| column(from, to).with_min_y(bottom.top());
+            let role = column(0.0, 1.0).with_max_y(top.bottom());
+            return Self { role, weight: low(0.04, 0.4), contribution: low(0.4, 0.7), raster: low(0.7, 1.02) };
         }
         Self { role: column(0.0, 0.39), weight: column(0.39, 0.59), contribution: column(0.59, 0.83), raster: column(0.83, 1.02) }
     }
+}
+
+fn in_two_lines(row: Rect) -> bool {
+    row.width() < NARROW && row.height() > 1.5 * ROW
 }
 
 /// Shows the table.
@@ -76,7 +78,10 @@ fn sort_buttons(ui: &mut Ui, state: &mut State) {
 }
 
 fn heads(ui: &mut Ui, state: &State) {
-    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 20.0), Sense::hover());
+    let (rect, _) = ui.allocate_exact_size(
+        vec2(ui.available_width(), if theme::for_fingers(ui.style()) { ui.spacing().interact_size.y } else { 20.0 }),
+        Sense::hover(),
+    );
     let columns = Columns::of(rect);
     let heads = [
         (columns.role, Text::HeadStrategy),
@@ -119,7 +124,7 @@ fn row(ui: &mut Ui, state: &mut State, existence: &Existence, (index, record): (
 }
 
 /// Left out of the sum (one that does not run is not).
-fn is_hidden(state: &State, record: &StrategyRecord) -> bool {
+pub fn is_hidden(state: &State, record: &StrategyRecord) -> bool {
     state.hidden.contains(record.strategy()) && state.settings.strategies.contains(record.strategy())
 }
 
@@ -173,13 +178,8 @@ fn paint(ui: &Ui, state: &State, (index, record, why): (usize, &StrategyRecord, 
     let middle = columns.weight.center().y;
     let number = 46.0;
     let gauge = Rect::from_min_max(pos2(columns.weight.left(), middle - 4.0), pos2(columns.weight.right() - number, middle + 4.0));
-    let weights = if gauge.width() > 8.0 {
-        bar(painter, visuals, gauge, record.mis_weight, theme::bar(visuals));
-        columns.weight.with_min_x(gauge.right() + 6.0)
-    } else {
-        columns.weight
-    };
-    numbers.cell(ui, weights, &format::weight(weight), &place("mis_weight"));
+    bar(painter, visuals, gauge, record.mis_weight, theme::bar(visuals));
+    numbers.cell(ui, columns.weight.with_min_x(gauge.right() + 6.0), &format::weight(weight), &place("mis_weight"));
     let square = Rect::from_center_size(pos2(columns.contribution.left() + 7.0, middle), vec2(13.0, 13.0));
     swatch(painter, visuals, square, pictures::hue(record.contribution));
     let luminance = format::short(f64::from(format::luminance(record.contribution)));

@@ -69,6 +69,7 @@ impl Link {
             files: _,
             tour: _,
             inspect,
+            text_view: _,
             drawn: _,
             messages: _,
             link: _,

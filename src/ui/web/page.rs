@@ -93,7 +93,9 @@ pub fn new_canvas() -> Result<HtmlCanvasElement, String> {
     let make = || {
         let (document, stage) = (document()?, element("stage")?);
         let canvas = document.create_element("canvas").ok()?.dyn_into::<HtmlCanvasElement>().ok()?;
-        for (name, value) in [("id", "canvas"), ("role", "application"), ("aria-label", "BDPT explorer"), ("aria-describedby", "summary")] {
+        for (name, value) in
+            [("id", "canvas"), ("role", "application"), ("aria-label", "BDPT explorer"), ("aria-describedby", "summary-now")]
+        {
             canvas.set_attribute(name, value).ok()?;
         }
         stage.set_text_content(None);
