@@ -1,0 +1,61 @@
+//! The same window as the page's, without a browser: it tells where things are, so that a test can click what has a name.
+
+use bdpt_explorer::ui::{App, SceneSource, Start};
+use eframe::egui::{self, Modifiers, PointerButton, Pos2, Role, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use std::time::{Duration, Instant};
+
+/// A window with the size of a page's that follows the same link.
+pub struct Twin(Harness<'static, App>);
+
+impl Twin {
+    /// Opens it, with its first frame.
+    pub fn new([width, height]: [u32; 2], link: &str) -> Self {
+        let start = Start { source: SceneSource::Named("cornell".to_owned()), size: [64, 64] };
+        let mut window = Harness::builder()
+            .with_size(vec2(width as f32, height as f32))
+            .build_eframe(|context| App::new(start, &context.egui_ctx, None));
+        window.state_mut().open_link(link);
+        let mut twin = Self(window);
+        twin.until(|app| app.live().frame().is_some() && app.live().record(app.state()).is_some());
+        twin
+    }
+
+    /// Runs passes until something is so.
+    pub fn until(&mut self, so: impl Fn(&App) -> bool) {
+        let end = Instant::now() + Duration::from_secs(60);
+        while !so(self.0.state()) {
+            assert!(Instant::now() < end, "the twin waits in vain");
+            self.0.step();
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        self.0.run_steps(3);
+    }
+
+    /// The program's state.
+    pub fn app(&mut self) -> &mut App {
+        self.0.state_mut()
+    }
+
+    /// Where a pixel of the image is.
+    pub fn pixel(&self, pixel: [u32; 2]) -> [f32; 2] {
+        self.0.state().on_screen(pixel).into()
+    }
+
+    /// Where something is that has a name.
+    pub fn place(&self, role: Role, label: &str) -> [f32; 2] {
+        self.0.get_by_role_and_label(role, label).rect().center().into()
+    }
+
+    /// Clicks there, as the page's person does.
+    pub fn click(&mut self, at: [f32; 2]) {
+        let pos = Pos2::from(at);
+        self.0.hover_at(pos);
+        for pressed in [true, false] {
+            let event = egui::Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
+            self.0.event(event);
+        }
+        self.0.run_steps(4);
+    }
+}
