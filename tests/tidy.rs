@@ -28,6 +28,7 @@ const HOMES: &[(&str, &[&str])] = &[
     ("obvhs", &["scene/bvh.rs"]),
     ("js_sys", &["task/page.rs", "ui/web.rs", "ui/web/"]),
     ("pollster", &["task/thread.rs"]),
+    ("log", &["ui/web/"]),
     ("rayon", &["bdpt/", "film/", "engine.rs", "engine/", "report/check/", "scene/gltf/images.rs"]),
     ("rfd", &["ui/"]),
     ("statrs", &["engine/batches.rs", "report/check/"]),

@@ -2,7 +2,7 @@
 //
 // The program calls `bdpt.ready()` when its first frame is on the screen, and `bdpt.fail(kind, detail)` when it cannot go on;
 // whatever else ends it (a trap, an error of a script) is caught here. Only the first failure is told: what follows is its
-// consequence.
+// consequence. What does not end the program is left in `bdpt.notes`, for it to show; `bdpt.wake`, which it sets, tells it so.
 const at = (id) => document.getElementById(id);
 const chinese = (tag) => /^zh\b/i.test(tag ?? "");
 document.documentElement.lang = (navigator.languages ?? [navigator.language]).length > 0 && chinese((navigator.languages ?? [])[0] ?? navigator.language) ? "zh-Hans" : "en";
@@ -10,6 +10,7 @@ document.documentElement.lang = (navigator.languages ?? [navigator.language]).le
 const texts = () => TEXTS[chinese(document.documentElement.lang) ? "zh" : "en"];
 
 let failed = false;
+let running = false;
 /** The program's memory, once it runs. */
 let memory;
 
@@ -57,6 +58,8 @@ function uncaught(error, text) {
   if (error instanceof WebAssembly.RuntimeError || error instanceof RangeError) {
     // An allocation that fails ends in a trap, and says nothing.
     fail(memory !== undefined && memory.buffer.byteLength > 2 ** 30 ? "memory" : "trap", detail);
+  } else if (running && !/\.wasm\b/.test(error?.stack ?? "")) {
+    bdpt.note(text ?? String(error));
   } else {
     fail("script", detail);
   }
@@ -65,7 +68,13 @@ function uncaught(error, text) {
 window.bdpt = {
   fail,
   ready() {
+    running = true;
     at("loading").hidden = true;
+  },
+  notes: [],
+  note(text) {
+    bdpt.notes.push(text);
+    bdpt.wake?.();
   },
 };
 window.addEventListener("error", (event) => {

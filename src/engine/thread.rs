@@ -9,7 +9,6 @@ use super::{Intervals, Job, JobError, Session};
 use crate::bdpt::StrategySet;
 use crate::task::{self, Task};
 use async_channel::TryRecvError;
-use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use web_time::Instant;
@@ -38,7 +37,7 @@ enum Command {
     Pixel([u32; 2]),
     /// Somebody looks at another picture.
     Look,
-    Layers(Sender<Layers>),
+    Layers(async_channel::Sender<Layers>),
     Stop,
 }
 
@@ -168,8 +167,8 @@ impl Engine {
     }
 
     /// Asks for every strategy's image; the render task answers at its next look for commands.
-    pub fn layers(&self) -> Receiver<Layers> {
-        let (sender, answer) = channel();
+    pub fn layers(&self) -> async_channel::Receiver<Layers> {
+        let (sender, answer) = async_channel::bounded(1);
         self.send(Command::Layers(sender));
         answer
     }
@@ -229,7 +228,7 @@ impl Worker {
             }
             for sender in asked {
                 // Who asked may have gone away meanwhile.
-                drop(sender.send(self.layers().await));
+                drop(sender.try_send(self.layers().await));
             }
             // The first look at something new should not be empty, and a restart has seen to that.
             if !self.paused && !restarted {

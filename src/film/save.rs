@@ -74,6 +74,14 @@ pub struct Layer<'a> {
 
 /// Saves linear f32 layers as one EXR file, compressed without loss.
 pub fn save_exr(path: &Path, window: Window, layers: &[Layer<'_>]) -> Result<(), SaveError> {
+    save_bytes(path, &exr_bytes(window, layers).map_err(|error| SaveError::new(path, error))?)
+}
+
+/// The bytes of such a file.
+///
+/// # Errors
+/// The encoder's sentence.
+pub fn exr_bytes(window: Window, layers: &[Layer<'_>]) -> Result<Vec<u8>, String> {
     let mut channels = exr::SmallVec::new();
     for layer in layers {
         for (index, letter) in ["R", "G", "B"].into_iter().enumerate() {
@@ -91,16 +99,24 @@ pub fn save_exr(path: &Path, window: Window, layers: &[Layer<'_>]) -> Result<(),
     let display = exr::IntegerBounds::new((0, 0), pair(window.film[0], window.film[1]));
     let image = exr::Image::new(exr::ImageAttributes::new(display), layer);
     let mut bytes = Vec::new();
-    image.write().to_buffered(Cursor::new(&mut bytes)).map_err(|error| SaveError::new(path, error))?;
-    save_bytes(path, &bytes)
+    image.write().to_buffered(Cursor::new(&mut bytes)).map_err(|error| error.to_string())?;
+    Ok(bytes)
 }
 
 /// Saves eight-bit sRGB as PNG.
 pub fn save_png(path: &Path, size: [u32; 2], rgb: &[u8]) -> Result<(), SaveError> {
+    save_bytes(path, &png_bytes(size, rgb).map_err(|error| SaveError::new(path, error))?)
+}
+
+/// The bytes of such a file.
+///
+/// # Errors
+/// The encoder's sentence.
+pub fn png_bytes(size: [u32; 2], rgb: &[u8]) -> Result<Vec<u8>, String> {
     let mut bytes = Cursor::new(Vec::new());
     image::write_buffer_with_format(&mut bytes, rgb, size[0], size[1], image::ExtendedColorType::Rgb8, image::ImageFormat::Png)
-        .map_err(|error| SaveError::new(path, error))?;
-    save_bytes(path, bytes.get_ref())
+        .map_err(|error| error.to_string())?;
+    Ok(bytes.into_inner())
 }
 
 /// Saves `bytes` as a whole or not at all.

@@ -1,5 +1,6 @@
 //! The scenes that come with the program, each small and chosen for what it teaches.
 
+use super::files::Files;
 use super::{Overrides, Progress, Scene, SceneError, gltf};
 use std::path::Path;
 
@@ -103,6 +104,17 @@ pub fn open(name_or_path: &str) -> Result<Scene, SceneError> {
 pub fn open_with(name_or_path: &str, overrides: &Overrides, progress: &Progress) -> Result<Scene, SceneError> {
     let start = web_time::Instant::now();
     let mut scene = load(name_or_path, overrides, progress)?;
+    scene.costs.load_seconds = start.elapsed().as_secs_f64();
+    Ok(scene)
+}
+
+/// Opens a scene from memory, with some things other than the file has them, and telling how far it is.
+///
+/// # Errors
+/// As [`gltf::load_files`].
+pub fn open_files(files: &Files, overrides: &Overrides, progress: &Progress) -> Result<Scene, SceneError> {
+    let start = web_time::Instant::now();
+    let mut scene = gltf::load_files(files, overrides, progress)?;
     scene.costs.load_seconds = start.elapsed().as_secs_f64();
     Ok(scene)
 }

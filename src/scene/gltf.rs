@@ -4,6 +4,7 @@
 //! [`Scene::notes`]. A file that cannot be read is an error of one line that names the element and what to do.
 
 mod accessor;
+mod beside;
 mod container;
 mod extras;
 mod images;
@@ -14,8 +15,10 @@ mod nodes;
 mod shape;
 mod textures;
 
+use super::files::{File, Files};
 use super::progress::Stage;
 use super::{Overrides, Parts, Progress, Scene, SceneError};
+use beside::Beside;
 use container::{Document, listed};
 use material::Materials;
 use std::path::Path;
@@ -52,7 +55,7 @@ pub fn load_telling(path: &Path, overrides: &Overrides, progress: &Progress) -> 
         _ => SceneError::file(path, format!("cannot be read ({e}); check the path and its permissions")),
     })?;
     let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
-    read(&name, (path, path.parent().or(Some(Path::new("")))), &bytes, overrides, progress)
+    read(&name, (path, Beside::Folder(path.parent().unwrap_or(Path::new("")))), &bytes, overrides, progress)
 }
 
 /// Loads a .glb (or a self-contained .gltf) from memory; `name` is used for the scene and in errors.
@@ -60,18 +63,34 @@ pub fn load_telling(path: &Path, overrides: &Overrides, progress: &Progress) -> 
 /// # Errors
 /// As [`load`]; that the file names another is an error too.
 pub fn load_bytes(name: &str, bytes: &[u8], overrides: &Overrides) -> Result<Scene, SceneError> {
-    read(name, (Path::new(name), None), bytes, overrides, &Progress::default())
+    read(name, (Path::new(name), Beside::Nothing), bytes, overrides, &Progress::default())
 }
 
-/// Reads a file; those it names are looked for in `folder`.
+/// Loads a .glb or .gltf file from memory, with the files it names.
+///
+/// # Errors
+/// As [`load`]; of those it needs and that are not there, all are named.
+pub fn load_files(files: &Files, overrides: &Overrides, progress: &Progress) -> Result<Scene, SceneError> {
+    let name = files.scene.short_name();
+    read(name, (Path::new(name), Beside::Files(files)), &files.scene.bytes, overrides, progress)
+}
+
+/// Does a .glb or .gltf file name this one as one of its own?
+pub fn names(scene: &File, other: &File) -> bool {
+    let alone = Files::new(scene.clone(), vec![other.clone()]);
+    let uris = container::root_of(&scene.bytes).map(|root| beside::named(&root)).unwrap_or_default();
+    uris.iter().any(|uri| matches!(alone.find(uri), Ok(Some(_))))
+}
+
+/// Reads a file; those it names are looked for beside it.
 fn read(
     name: &str,
-    (file, folder): (&Path, Option<&Path>),
+    (file, beside): (&Path, Beside<'_>),
     bytes: &[u8],
     overrides: &Overrides,
     progress: &Progress,
 ) -> Result<Scene, SceneError> {
-    let document = Document::parse(file, bytes, folder, overrides.scene.as_deref())?;
+    let document = Document::parse(file, bytes, beside, overrides.scene.as_deref())?;
     if let Some(extension) = document.root.extensions_required.iter().find(|e| !KNOWN_EXTENSIONS.contains(&e.as_str())) {
         return Err(SceneError::file(file, format!("it requires the extension {extension}, which cannot be read; export it without")));
     }

@@ -17,6 +17,7 @@ mod emitters;
 pub mod environment;
 pub mod error;
 pub mod features;
+pub mod files;
 pub mod gltf;
 pub mod lamps;
 pub mod light;

@@ -4,11 +4,10 @@ use super::edit::history::Snapshot;
 use super::image_view::Desk;
 use super::live::{Live, SceneSource};
 use super::pictures::Pictures;
-use super::state::{Maximised, Opening, Preferences, State};
-use super::text::{Text, fill};
+use super::state::{Maximised, Preferences, State};
 use super::wake::Wake;
-use super::{fonts, help, image_view, inspector, keys, messages, pyramid, scene_menu, space, status_bar, theme, top_bar, tour};
-use eframe::egui::{self, Align2, CentralPanel, Color32, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
+use super::{files, fonts, help, image_view, inspector, keys, messages, pyramid, space, status_bar, theme, top_bar, tour};
+use eframe::egui::{self, CentralPanel, Color32, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
 use eframe::egui_wgpu::RenderState;
 use web_time::Instant;
 
@@ -160,30 +159,6 @@ impl App {
         }
         self.image = whole.show(ui, |ui| image_view::show(ui, state, live, desk)).inner;
     }
-
-    /// Files dropped on the window, and the invitation to drop them.
-    fn drops(&mut self, ui: &Ui) {
-        for file in ui.input(|input| input.raw.dropped_files.clone()) {
-            let path = file.path();
-            let name = path.display().to_string();
-            match path.extension().and_then(|end| end.to_str()).map(str::to_ascii_lowercase).as_deref() {
-                Some("glb" | "gltf") => {
-                    // An environment dropped together with it lights it.
-                    let environment = self.state.open.take().and_then(|opening| opening.environment);
-                    self.state.open = Some(Opening { environment, ..Opening::of(name) });
-                }
-                Some("hdr" | "exr") => scene_menu::surround(&mut self.state, &self.live, path),
-                _ => self.state.tell(true, fill(self.state.say(Text::NotAScene), &[&name])),
-            }
-        }
-        if ui.input(|input| !input.raw.hovered_files.is_empty()) {
-            let screen = ui.content_rect();
-            let painter = ui.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop")));
-            painter.rect_filled(screen, 0.0, egui::Color32::from_black_alpha(170));
-            let font = egui::FontId::proportional(24.0);
-            painter.text(screen.center(), Align2::CENTER_CENTER, self.state.say(Text::DropHere), font, egui::Color32::WHITE);
-        }
-    }
 }
 
 impl eframe::App for App {
@@ -197,7 +172,7 @@ impl eframe::App for App {
         keys::obey(ui.ctx(), &mut self.state, image_view::id());
         self.pictures.collect(ui.ctx());
         self.desk.darkroom.collect(ui.ctx());
-        self.drops(ui);
+        files::drops(ui, &mut self.state, &self.live);
         self.panels(ui, frame.wgpu_render_state());
         help::show(ui.ctx(), &mut self.state);
         keys::release_after_click(ui.ctx());

@@ -5,9 +5,9 @@ mod shown;
 
 use super::checks::Runner;
 use super::compare::Pair;
-use super::edit::dialog::Dialog;
 use super::edit::reload::Reload;
 use super::export::{Saver, Sources};
+use super::files::Intake;
 use super::inspector;
 use super::loader::Loader;
 use super::state::{Opening, State};
@@ -52,7 +52,7 @@ pub struct Live {
     /// Follows the file of the scene on show, and of the one being loaded.
     reload: Reload,
     reading: Reload,
-    dialog: Dialog,
+    intake: Intake,
     engine: Option<Engine>,
     /// The scene to show, and the one the engine accepted last.
     shown: Option<Shown>,
@@ -83,7 +83,7 @@ impl Live {
             loader: Loader::new(wake),
             reload: Reload::default(),
             reading: Reload::default(),
-            dialog: Dialog::default(),
+            intake: Intake::new(wake),
             engine: None,
             shown: None,
             running: None,
@@ -173,6 +173,11 @@ impl Live {
     /// How far it is, in a sentence; that nothing is loaded, if so.
     pub fn loading_text(&self, state: &State) -> String {
         self.loader.sentence(state)
+    }
+
+    /// Where files come in.
+    pub fn intake(&self) -> &Intake {
+        &self.intake
     }
 
     /// What is rendered, or about to be: a change to it starts from here.
@@ -283,7 +288,7 @@ impl Live {
         if same_but_for_dragging && (current.is_some_and(undragged) || self.picture_is_coming()) {
             return false;
         }
-        let moved = self.running.as_ref().is_some_and(|old| old.opening.scene != shown.opening.scene);
+        let moved = self.running.as_ref().is_some_and(|old| !old.opening.same_file(&shown.opening));
         state.restart = false;
         let job = Job {
             camera: state.camera,

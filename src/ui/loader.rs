@@ -86,5 +86,8 @@ fn read(opening: &Opening, progress: &Progress) -> Result<Scene, SceneError> {
         environment_rotation: environment.map(|chosen| chosen.rotation),
         scene: opening.inside.clone(),
     };
-    builtin::open_with(&opening.scene, &overrides, progress)
+    match &opening.files {
+        Some(files) => builtin::open_files(files, &overrides, progress),
+        None => builtin::open_with(&opening.scene, &overrides, progress),
+    }
 }

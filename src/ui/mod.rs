@@ -16,6 +16,7 @@ mod drawn;
 mod edit;
 mod export;
 mod features;
+mod files;
 mod fonts;
 mod format;
 mod help;

@@ -1,11 +1,10 @@
 //! The scene menu: the built-in scenes, a file, and the environment that lights it.
 
-use super::edit::dialog::Dialog;
 use super::edit::recent;
 use super::features;
 use super::live::Live;
-use super::state::{ChosenEnvironment, Opening, State};
-use super::text::{EditText, Text};
+use super::state::{ChosenEnvironment, Opening, Purpose, State};
+use super::text::{EditText, FilesText, Text, Words, fill};
 use super::widgets::{finite, labelled};
 use crate::scene::environment::EnvironmentSource;
 use crate::scene::{Scene, builtin};
@@ -42,18 +41,24 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
             scenes_inside(ui, state, live, scene);
         }
         ui.separator();
-        files(ui, state);
-        if let Some(path) = path_field(ui, state, Text::ScenePath, |state| &mut state.scene_field) {
-            state.open = Some(Opening::of(path));
-            ui.close();
+        if state.files.by_path {
+            files(ui, state);
+            if let Some(path) = text_field(ui, state, (Text::ScenePath, Text::ScenePathHint), |state| &mut state.scene_field) {
+                state.open = Some(Opening::of(path));
+                ui.close();
+            }
+        } else {
+            choose_button(ui, state, (FilesText::Choose, FilesText::HelpChoose), Purpose::Open);
+            ui.label(RichText::new(state.say(FilesText::OrDrop)).small().weak());
         }
         ui.separator();
         environment(ui, state, live);
     });
-    let help = format!("{current}\n{}", state.say(Text::HelpScene));
+    let help = if state.files.by_path { state.say(Text::HelpScene) } else { state.say(FilesText::HelpScene) };
+    let help = format!("{current}\n{help}");
     response.response.labelled_by(label.id).on_hover_text(help);
-    if live.loading().is_some() {
-        let words = live.loading_text(state);
+    if live.loading().is_some() || live.intake().reading() {
+        let words = if live.loading().is_some() { live.loading_text(state) } else { state.say(FilesText::Reading).to_owned() };
         let spinner = ui.spinner();
         spinner.widget_info(|| WidgetInfo::labeled(Role::ProgressIndicator, true, &words));
         spinner.on_hover_text(&words);
@@ -62,10 +67,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
 
 /// The system's dialog, and the files opened last.
 fn files(ui: &mut Ui, state: &mut State) {
-    if Dialog::POSSIBLE && ui.button(state.say(EditText::OpenFile)).on_hover_text(state.say(EditText::HelpOpenFile)).clicked() {
-        state.edit.ask_for_file = true;
-        ui.close();
-    }
+    choose_button(ui, state, (EditText::OpenFile, EditText::HelpOpenFile), Purpose::Open);
     let recent = recent::existing(&state.prefs);
     if !recent.is_empty() {
         ui.label(RichText::new(state.say(EditText::Recent)).small().weak());
@@ -86,10 +88,18 @@ fn brief(scene: &str) -> String {
     if name.chars().count() <= MOST_LETTERS { name.into_owned() } else { name.chars().take(MOST_LETTERS - 1).chain(['…']).collect() }
 }
 
+/// A button that lets a person choose files.
+fn choose_button<T: Words>(ui: &mut Ui, state: &mut State, (name, help): (T, T), purpose: Purpose) {
+    if ui.button(state.say(name)).on_hover_text(state.say(help)).clicked() {
+        state.files.choose = Some(purpose);
+        ui.close();
+    }
+}
+
 /// A field for a path with its button; the path once it is entered.
-fn path_field(ui: &mut Ui, state: &mut State, name: Text, field: impl Fn(&mut State) -> &mut String) -> Option<String> {
+fn text_field<T: Words>(ui: &mut Ui, state: &mut State, (name, hint): (T, T), field: impl Fn(&mut State) -> &mut String) -> Option<String> {
     let label = ui.label(state.say(name));
-    let (hint, open) = (state.say(Text::ScenePathHint), state.say(Text::Open));
+    let (hint, open) = (state.say(hint), state.say(Text::Open));
     let entered = ui.horizontal(|ui| {
         let edit = TextEdit::singleline(field(state)).hint_text(hint).desired_width(WIDTH - 70.0);
         let edit = ui.add(edit).labelled_by(label.id);
@@ -121,8 +131,16 @@ fn scenes_inside(ui: &mut Ui, state: &mut State, live: &Live, scene: &Scene) {
 
 /// What surrounds the scene: a file to use, and how far it is turned.
 fn environment(ui: &mut Ui, state: &mut State, live: &Live) {
-    if let Some(text) = path_field(ui, state, Text::Environment, |state| &mut state.environment_field) {
+    let by_path = state.files.by_path;
+    let entered = if by_path {
+        text_field(ui, state, (Text::Environment, Text::ScenePathHint), |state| &mut state.environment_field)
+    } else {
+        choose_button(ui, state, (FilesText::ChooseEnvironment, FilesText::HelpChooseEnvironment), Purpose::Environment);
+        text_field(ui, state, (FilesText::EnvironmentColour, FilesText::EnvironmentHint), |state| &mut state.environment_field)
+    };
+    if let Some(text) = entered {
         match EnvironmentSource::parse(&text) {
+            Ok(EnvironmentSource::File(_)) if !by_path => state.tell(true, fill(state.say(FilesText::NoPaths), &[&text])),
             Ok(source) => replace(state, live, Some(ChosenEnvironment { source, rotation: 0.0 })),
             Err(reason) => state.tell(true, format!("{text}: {reason}")),
         }
@@ -159,12 +177,13 @@ fn name(source: &EnvironmentSource) -> String {
     match source {
         EnvironmentSource::Constant(radiance) => format!("{} {} {}", radiance.x, radiance.y, radiance.z),
         EnvironmentSource::File(path) => path.display().to_string(),
+        EnvironmentSource::Memory(file) => file.short_name().to_owned(),
     }
 }
 
 /// Lights the scene with a picture.
-pub fn surround(state: &mut State, live: &Live, picture: &Path) {
-    replace(state, live, Some(ChosenEnvironment { source: EnvironmentSource::File(picture.to_owned()), rotation: 0.0 }));
+pub fn surround(state: &mut State, live: &Live, source: EnvironmentSource) {
+    replace(state, live, Some(ChosenEnvironment { source, rotation: 0.0 }));
 }
 
 /// Opens the scene again with another environment; `None` = its own.

@@ -5,6 +5,7 @@ pub use super::compare::{CompareState, Mode as CompareMode, Source};
 pub use super::drawn::{Drawn, Draws, Why, Wish};
 pub use super::edit::EditState;
 pub use super::export::{ExportState, What};
+pub use super::files::{FilesState, Given, Purpose};
 pub use super::image_view::ViewState;
 pub use super::inspector::{Bars, InspectState};
 pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};
@@ -16,6 +17,7 @@ use crate::bdpt::{Existence, Settings, Strategy, StrategySet};
 use crate::engine::{Backend, Mode};
 use crate::film::tonemap::{Look, ToneMap};
 use crate::scene::environment::EnvironmentSource;
+use crate::scene::files::Files;
 use crate::scene::{Lens, Pose};
 use eframe::egui;
 
@@ -84,8 +86,10 @@ pub struct ChosenEnvironment {
 /// A scene to load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Opening {
-    /// A built-in name or a path.
+    /// A built-in name or a path; of a scene in memory, its file's name.
     pub scene: String,
+    /// The scene in memory, where it is.
+    pub files: Option<Files>,
     /// Which of the file's scenes, by name or number; `None` = its default.
     pub inside: Option<String>,
     /// `None` = the file's own.
@@ -95,7 +99,12 @@ pub struct Opening {
 impl Opening {
     /// A scene as its file has it.
     pub fn of(scene: impl Into<String>) -> Self {
-        Self { scene: scene.into(), inside: None, environment: None }
+        Self { scene: scene.into(), files: None, inside: None, environment: None }
+    }
+
+    /// Is it read from the same file?
+    pub fn same_file(&self, other: &Self) -> bool {
+        self.scene == other.scene && self.files == other.files
     }
 }
 
@@ -173,6 +182,8 @@ pub struct State {
     pub checks: ChecksState,
     /// Saving.
     pub export: ExportState,
+    /// Files that come in without a path.
+    pub files: FilesState,
     /// How things were when the tour's step began.
     pub tour: Option<Before>,
     /// The inspector's own choices.
@@ -218,6 +229,7 @@ impl State {
             study: StudyState::default(),
             checks: ChecksState::default(),
             export: ExportState::default(),
+            files: FilesState::default(),
             tour: None,
             inspect: InspectState::default(),
             drawn: None,

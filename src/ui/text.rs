@@ -30,6 +30,7 @@ macro_rules! texts {
 mod check;
 mod edit;
 mod export;
+mod files;
 mod inspect;
 mod looks;
 mod space;
@@ -42,6 +43,7 @@ mod web;
 pub use check::{CheckText, phrase_text, said};
 pub use edit::EditText;
 pub use export::ExportText;
+pub use files::FilesText;
 pub use inspect::InspectText;
 pub use looks::LooksText;
 pub use space::SpaceText;

@@ -1,6 +1,8 @@
 //! The window in a page: a canvas, drawn with WebGPU or WebGL 2. When the device it is drawn with is lost, it goes, and the same
 //! [`App`](super::App) goes on in a new one; what cannot go on says so on the page (`web/loader.js`).
 
+mod console;
+pub mod files;
 mod graphics;
 pub mod page;
 
@@ -28,6 +30,7 @@ const MOMENT: Duration = Duration::from_millis(500);
 /// Opens the window in the page that has loaded the program.
 pub fn run() {
     std::panic::set_hook(Box::new(panicked));
+    console::listen();
     spawn_local(keep_open());
 }
 
@@ -79,7 +82,7 @@ struct Shown {
     watch: Watch,
     /// Rings when it is to be closed.
     closing: Bell,
-    _on_context_loss: Closure<dyn FnMut()>,
+    _listeners: [Closure<dyn FnMut()>; 2],
 }
 
 impl Shown {
@@ -88,18 +91,21 @@ impl Shown {
         let (watch, closing) = (Watch::default(), Bell::default());
         let (canvas, runner) = (page::new_canvas()?, WebRunner::new());
         let (place, guard, bell, on_canvas) = (Rc::clone(room), watch.clone(), closing.clone(), canvas.clone());
-        let on_context_loss = Rc::new(RefCell::new(None));
-        let listener = Rc::clone(&on_context_loss);
+        let listeners = Rc::new(RefCell::new(None));
+        let listening = Rc::clone(&listeners);
         let create: eframe::AppCreator<'static> = Box::new(move |context| {
             let (watch, window) = (guard.clone(), context.egui_ctx.clone());
             let lost = Closure::<dyn FnMut()>::new(move || watch.note("WebGL context lost".to_owned(), &window));
             drop(on_canvas.add_event_listener_with_callback("webglcontextlost", lost.as_ref().unchecked_ref()));
-            listener.replace(Some(lost));
+            let window = context.egui_ctx.clone();
+            let reported = Closure::<dyn FnMut()>::new(move || window.request_repaint());
+            page::on_report(reported.as_ref().unchecked_ref());
+            listening.replace(Some([lost, reported]));
             Ok(Box::new(Window::new(place, guard, context, move |_: &egui::Context| bell.ring())?))
         });
         runner.start(canvas, graphics::options(by), create).await.map_err(|error| text_of(&error))?;
-        let on_context_loss = on_context_loss.take().ok_or("the window was not made")?;
-        Ok(Self { runner, watch, closing, _on_context_loss: on_context_loss })
+        let listeners = listeners.take().ok_or("the window was not made")?;
+        Ok(Self { runner, watch, closing, _listeners: listeners })
     }
 
     /// Closes it; returns why.
@@ -138,6 +144,9 @@ impl Watcher {
                 state.tell(true, sentence);
             }
             state.drawn = Some(drawn);
+        }
+        for report in page::take_reports() {
+            state.tell(true, report);
         }
         if let Some(unknown) = self.unknown.take() {
             state.tell(true, fill(WebText::NoSuchRenderer.in_language(lang), &[&unknown]));

@@ -19,6 +19,7 @@ mod geometry;
 mod glb;
 mod lights;
 mod materials;
+mod memory;
 mod rendering;
 mod scale;
 mod scenes_by_name;

@@ -8,11 +8,11 @@ const GREEN: [u8; 4] = [0, 255, 0, 255];
 const BLUE: [u8; 4] = [0, 0, 255, 255];
 const WHITE: [u8; 4] = [255; 4];
 /// Red and green above blue and white.
-const FOUR: [[u8; 4]; 4] = [RED, GREEN, BLUE, WHITE];
+pub(super) const FOUR: [[u8; 4]; 4] = [RED, GREEN, BLUE, WHITE];
 const NEAREST: u32 = 9728;
 
 /// A diffuse square with texture 0 as its base colour.
-fn textured(picture: &[u8], sampler: Value) -> Glb {
+pub(super) fn textured(picture: &[u8], sampler: Value) -> Glb {
     let mut paint = lambert("paint", [1.0; 3]);
     paint["pbrMetallicRoughness"]["baseColorTexture"] = json!({ "index": 0 });
     let mut glb = with_coordinates(paint);

@@ -4,12 +4,13 @@
 //! has not checked. Everything that is read here and in `accessor` is checked first, so a hostile file is an error.
 
 use super::super::SceneError;
+use super::beside::Beside;
 use ::gltf::buffer::{Data, Source};
 use ::gltf::json::extras::Extras;
 use ::gltf::json::{self, Root};
 use serde_json::{Map, Value};
 use std::borrow::Cow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A parsed document with the contents of all its buffers.
 pub struct Document<'a> {
@@ -21,19 +22,19 @@ pub struct Document<'a> {
     pub buffers: Vec<Cow<'a, [u8]>>,
     /// Which scene of the file is shown; `None` if it has none.
     pub scene: Option<usize>,
-    /// Where other files are looked for; `None`: nowhere.
-    folder: Option<&'a Path>,
+    /// Where other files are looked for.
+    beside: Beside<'a>,
 }
 
 impl<'a> Document<'a> {
-    /// Parses `bytes`; other files are looked for in `folder`, if there is one. `scene` names the scene to be shown.
-    pub fn parse(file: &'a Path, bytes: &'a [u8], folder: Option<&'a Path>, scene: Option<&str>) -> Result<Self, SceneError> {
+    /// Parses `bytes`; `scene` names the scene to be shown.
+    pub fn parse(file: &'a Path, bytes: &'a [u8], beside: Beside<'a>, scene: Option<&str>) -> Result<Self, SceneError> {
         let (text, blob) = split_container(bytes).map_err(|reason| SceneError::file(file, reason))?;
         let root = root(text).map_err(|e| SceneError::file(file, not_gltf(text, &e)))?;
         if !root.asset.version.starts_with("2.") {
             return Err(SceneError::file(file, format!("glTF version {} cannot be read; export it as glTF 2.0", root.asset.version)));
         }
-        let mut document = Self { file, root, buffers: Vec::new(), scene: None, folder };
+        let mut document = Self { file, root, buffers: Vec::new(), scene: None, beside };
         document.scene = document.chosen(scene)?;
         for index in 0..document.root.buffers.len() {
             let bytes = document.buffer(index, blob).map_err(|reason| document.error(format!("buffer {index}"), reason))?;
@@ -75,12 +76,12 @@ impl<'a> Document<'a> {
     }
 
     /// What a URI names: base64 in itself, or a file beside this one.
-    pub fn fetch(&self, uri: &str) -> Result<Vec<u8>, String> {
+    pub fn fetch(&self, uri: &str) -> Result<Cow<'a, [u8]>, String> {
         if uri.starts_with("data:") {
             let data = Data::from_source(Source::Uri(uri), None);
-            return Ok(data.map_err(|e| format!("its data URI is not base64 ({e}); export the file again"))?.0);
+            return data.map(|data| Cow::Owned(data.0)).map_err(|e| format!("its data URI is not base64 ({e}); export the file again"));
         }
-        external(uri, self.folder)
+        self.beside.fetch(uri, &self.root)
     }
 
     /// The bytes of a buffer view.
@@ -105,7 +106,7 @@ impl<'a> Document<'a> {
     fn buffer(&self, index: usize, blob: Option<&'a [u8]>) -> Result<Cow<'a, [u8]>, String> {
         let buffer = &self.root.buffers[index];
         let bytes: Cow<[u8]> = match (&buffer.uri, blob) {
-            (Some(uri), _) => Cow::Owned(self.fetch(uri)?),
+            (Some(uri), _) => self.fetch(uri)?,
             (None, Some(blob)) if index == 0 => Cow::Borrowed(blob),
             (None, _) => return Err("it names no file and the container holds no data for it; export the file again".into()),
         };
@@ -149,6 +150,11 @@ fn split_container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
     Ok((text, blob.filter(|(kind, _)| *kind == u32::from_le_bytes(*b"BIN\0")).map(|(_, data)| data)))
 }
 
+/// The JSON of a file's bytes, if they are glTF.
+pub fn root_of(bytes: &[u8]) -> Option<Root> {
+    root(split_container(bytes).ok()?.0).ok()
+}
+
 /// The document. A scene without nodes may leave out the list of them, which the parser does not know.
 fn root(text: &[u8]) -> Result<Root, String> {
     let error = match json::deserialize::from_slice(text) {
@@ -172,38 +178,6 @@ fn not_gltf(text: &[u8], parser: &str) -> String {
     } else {
         "not a glTF file; open a .gltf or .glb file".into()
     }
-}
-
-/// Reads another file.
-fn external(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
-    let scheme = uri.split_once(':').map(|(scheme, _)| scheme).filter(|s| s.len() > 1 && s.chars().all(char::is_alphanumeric));
-    if let Some(scheme) = scheme {
-        return Err(format!("'{uri}' has the scheme '{scheme}', only files beside this one are read; export it as one .glb file"));
-    }
-    let folder = folder.ok_or_else(|| format!("it lies in another file, '{uri}'; export the scene as one .glb file"))?;
-    let path = folder.join(decoded(uri));
-    super::super::read::whole(&path)
-        .map_err(|e| format!("cannot read '{}' ({e}); put it there or export the scene as one .glb file", path.display()))
-}
-
-/// A URI's percent escapes resolved; what is no escape, or no UTF-8 afterwards, stays as it is.
-fn decoded(uri: &str) -> PathBuf {
-    let bytes = uri.as_bytes();
-    let (mut out, mut i) = (Vec::with_capacity(bytes.len()), 0);
-    while i < bytes.len() {
-        let escape = bytes.get(i + 1..i + 3).filter(|_| bytes[i] == b'%').and_then(|h| std::str::from_utf8(h).ok());
-        match escape.and_then(|hex| u8::from_str_radix(hex, 16).ok()) {
-            Some(byte) => {
-                out.push(byte);
-                i += 3;
-            }
-            None => {
-                out.push(bytes[i]);
-                i += 1;
-            }
-        }
-    }
-    String::from_utf8(out).map_or_else(|_| uri.into(), PathBuf::from)
 }
 
 /// "'a', 'b'": the first six of some names in quotes, and how many more there are.

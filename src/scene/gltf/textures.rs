@@ -129,7 +129,7 @@ impl<'a> TextureTable<'a> {
         let name = label("image", index, image.name.as_deref().or(uri));
         let bytes = match (&image.uri, image.buffer_view) {
             (_, Some(view)) => self.document.view(view.value()).map(Cow::Borrowed),
-            (Some(uri), None) => self.document.fetch(uri).map(Cow::Owned),
+            (Some(uri), None) => self.document.fetch(uri),
             (None, None) => Err("it has neither a file nor a buffer view; export the scene again".into()),
         };
         let bytes = bytes.map_err(|reason| format!("{name}: {reason}"))?;

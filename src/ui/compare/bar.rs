@@ -3,11 +3,11 @@
 use super::super::format;
 use super::super::keys::{self, Action};
 use super::super::live::Live;
-use super::super::state::State;
-use super::super::text::{Text, ViewText, fill};
+use super::super::state::{Purpose, State};
+use super::super::text::{FilesText, Text, ViewText, fill};
 use super::super::widgets::{full_name, keep_together};
 use super::source::{name, rendered, short_name, takes_part};
-use super::{Mode, Source};
+use super::{Mode, Reading, Source};
 use crate::film::difference::{Figures, Metric};
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{Button, ComboBox, Key, Label, PopupCloseBehavior, RichText, Role, TextEdit, Ui, WidgetInfo};
@@ -123,17 +123,10 @@ fn shelf(ui: &mut Ui, state: &mut State, live: &Live) {
     let menu = MenuButton::new(state.say(ViewText::Load)).config(config);
     let (response, _) = menu.ui(ui, |ui| {
         ui.set_min_width(FIELD + 70.0);
-        let label = ui.label(state.say(ViewText::LoadPath));
-        let entered = ui.horizontal(|ui| {
-            let hint = state.say(Text::ScenePathHint);
-            let edit = TextEdit::singleline(&mut state.compare.field).hint_text(hint).desired_width(FIELD);
-            let edit = ui.add(edit).labelled_by(label.id);
-            let entered = edit.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-            ui.button(state.say(Text::Open)).clicked() || entered
-        });
-        let path = state.compare.field.trim();
-        if entered.inner && !path.is_empty() {
-            state.compare.load = Some(path.into());
+        if state.files.by_path {
+            path_field(ui, state);
+        } else if ui.button(state.say(FilesText::ChooseReference)).clicked() {
+            state.files.choose = Some(Purpose::Reference);
             ui.close();
         }
         let mut forgotten = None;
@@ -152,6 +145,23 @@ fn shelf(ui: &mut Ui, state: &mut State, live: &Live) {
         }
     });
     response.on_hover_text(state.say(ViewText::HelpLoad));
+}
+
+/// The path of a picture to read.
+fn path_field(ui: &mut Ui, state: &mut State) {
+    let label = ui.label(state.say(ViewText::LoadPath));
+    let entered = ui.horizontal(|ui| {
+        let hint = state.say(Text::ScenePathHint);
+        let edit = TextEdit::singleline(&mut state.compare.field).hint_text(hint).desired_width(FIELD);
+        let edit = ui.add(edit).labelled_by(label.id);
+        let entered = edit.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        ui.button(state.say(Text::Open)).clicked() || entered
+    });
+    let path = state.compare.field.trim();
+    if entered.inner && !path.is_empty() {
+        state.compare.load = Some(Reading::Path(path.into()));
+        ui.close();
+    }
 }
 
 /// That both pictures cost as much, where they did.

@@ -5,20 +5,19 @@ use super::super::state::State;
 use super::super::text::{ViewText, fill};
 use super::super::wake::Wake;
 use super::source::{find, rendered};
-use super::{About, Source};
+use super::{About, Reading, Source};
 use crate::film::picture::Picture;
 use crate::task;
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 /// What a reader brings.
-type Reading = Result<Picture, String>;
+type Read = Result<Picture, String>;
 
 /// Keeps and reads pictures.
 pub struct Keeper {
     wake: Wake,
-    underway: Option<(PathBuf, Receiver<Reading>)>,
+    underway: Option<(String, Receiver<Read>)>,
 }
 
 impl Keeper {
@@ -30,21 +29,21 @@ impl Keeper {
     /// Does what the state asks for. True if something new is there.
     pub fn sync(&mut self, state: &mut State, live: &Live) -> bool {
         let kept = std::mem::take(&mut state.compare.keep) && keep(state, live);
-        if let Some(path) = state.compare.load.take() {
-            self.start(path);
+        if let Some(reading) = state.compare.load.take() {
+            self.start(reading);
         }
         let read = self.finish(state);
         kept || read
     }
 
     /// Reads a file; what was underway is forgotten.
-    fn start(&mut self, path: PathBuf) {
+    fn start(&mut self, reading: Reading) {
         let (sender, receiver) = channel();
-        self.underway = Some((path.clone(), receiver));
+        self.underway = Some((name(&reading), receiver));
         let wake = self.wake.clone();
         let work = move || {
             // A receiver that is gone waits for another picture by now.
-            let _ = sender.send(Picture::open(&path));
+            let _ = sender.send(read(&reading));
             wake.now();
         };
         // Without a thread the sender is gone, and that is told.
@@ -52,13 +51,13 @@ impl Keeper {
     }
 
     fn finish(&mut self, state: &mut State) -> bool {
-        let Some((path, receiver)) = &self.underway else { return false };
+        let Some((name, receiver)) = &self.underway else { return false };
         let reading = match receiver.try_recv() {
             Err(TryRecvError::Empty) => return false,
-            Err(TryRecvError::Disconnected) => Err(fill(state.say(ViewText::ReaderDied), &[&path.display().to_string()])),
+            Err(TryRecvError::Disconnected) => Err(fill(state.say(ViewText::ReaderDied), &[name])),
             Ok(reading) => reading,
         };
-        let name = file_name(path);
+        let name = name.clone();
         self.underway = None;
         match reading {
             Err(sentence) => state.tell(true, sentence),
@@ -77,8 +76,18 @@ impl Keeper {
     }
 }
 
-fn file_name(path: &Path) -> String {
-    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
+fn name(reading: &Reading) -> String {
+    match reading {
+        Reading::Path(path) => path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned()),
+        Reading::Memory(file) => file.short_name().to_owned(),
+    }
+}
+
+fn read(reading: &Reading) -> Read {
+    match reading {
+        Reading::Path(path) => Picture::open(path),
+        Reading::Memory(file) => Picture::decode(&file.bytes).map_err(|reason| format!("'{}': {reason}", file.short_name())),
+    }
 }
 
 /// Keeps what the view shows as A; with nothing to compare with yet, that is what the picture is for.

@@ -14,6 +14,7 @@ pub use source::{Content, Missing, Source, Sourced, name, samples, short_name, t
 use crate::film::difference::Metric;
 use crate::film::picture::Picture;
 use crate::film::scale::Scale;
+use crate::scene::files::File;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -44,6 +45,15 @@ pub enum About {
     Rendered(Box<Rendered>),
     /// The file it was read from.
     File(String),
+}
+
+/// A picture to be read.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reading {
+    /// From a file.
+    Path(PathBuf),
+    /// From one in memory.
+    Memory(File),
 }
 
 /// A rendering at some moment.
@@ -110,7 +120,7 @@ pub struct CompareState {
     /// The path typed for a picture to compare with.
     pub field: String,
     /// A picture to read; taken by whoever reads it.
-    pub load: Option<PathBuf>,
+    pub load: Option<Reading>,
 }
 
 impl Default for CompareState {

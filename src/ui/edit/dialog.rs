@@ -25,9 +25,6 @@ pub enum Answer {
 pub struct Dialog(Option<Receiver<Answer>>);
 
 impl Dialog {
-    /// Can there be one?
-    pub const POSSIBLE: bool = cfg!(not(target_arch = "wasm32"));
-
     /// Opens it, unless it is open.
     pub fn open(&mut self, title: &'static str, wake: &Wake) {
         self.open_with(move || pick(title), wake);
@@ -67,15 +64,8 @@ impl Dialog {
     }
 }
 
-#[cfg(not(target_arch = "wasm32"))]
 fn pick(title: &str) -> Option<PathBuf> {
     rfd::FileDialog::new().set_title(title).add_filter("glTF", &["glb", "gltf"]).pick_file()
-}
-
-/// A page reads no files of its own accord.
-#[cfg(target_arch = "wasm32")]
-fn pick(_title: &str) -> Option<PathBuf> {
-    None
 }
 
 #[cfg(test)]

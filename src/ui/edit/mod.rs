@@ -2,6 +2,7 @@
 //! changing things: undo and redo, the hand on the camera, files that are opened and read again.
 
 mod camera;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod dialog;
 pub mod hand;
 pub mod history;
@@ -28,8 +29,6 @@ pub struct EditState {
     pub history: History,
     /// A plain drag on the image moves the camera.
     pub moving: bool,
-    /// Open the system's file dialog; taken by whoever can.
-    pub ask_for_file: bool,
     /// What holds the camera now.
     pub(in crate::ui) grip: Option<Grip>,
     /// Name of the bookmark to be made.
@@ -41,6 +40,6 @@ pub struct EditState {
 impl EditState {
     /// Another scene is on show: nothing of this one fits it.
     pub fn forget(&mut self) {
-        *self = Self { moving: self.moving, ask_for_file: self.ask_for_file, ..Self::default() };
+        *self = Self { moving: self.moving, ..Self::default() };
     }
 }

@@ -5,7 +5,7 @@ pub use saver::{Saver, Sources};
 
 use super::live::Live;
 use super::state::State;
-use super::text::{ExportText, fill};
+use super::text::{ExportText, FilesText, fill};
 use super::widgets::labelled;
 use crate::report::export::{file_stem, scene_stem};
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
@@ -85,10 +85,6 @@ fn menu(ui: &mut Ui, state: &mut State, live: &Live) {
     ui.set_width(WIDTH);
     // Only what is chosen looks chosen; what does something looks like a button.
     ui.visuals_mut().button_frame = true;
-    if cfg!(target_arch = "wasm32") {
-        ui.label(state.say(ExportText::NotInBrowser));
-        return;
-    }
     for (what, name, help, _) in KINDS {
         let chosen = state.export.what == what;
         if ui.selectable_label(chosen, state.say(name)).on_hover_text(state.say(help)).clicked() && !chosen {
@@ -109,7 +105,7 @@ fn menu(ui: &mut Ui, state: &mut State, live: &Live) {
     ui.horizontal(|ui| {
         let save = ui.add_enabled(something && !path.as_os_str().is_empty(), Button::new(state.say(ExportText::SaveNow)));
         if save.on_disabled_hover_text(state.say(ExportText::NothingYet)).clicked() || (entered && something) {
-            if path.is_file() {
+            if state.files.by_path && path.is_file() {
                 state.export.ask = Some(path.clone());
             } else {
                 request(ui, state, path.clone());
@@ -142,7 +138,9 @@ fn request(ui: &mut Ui, state: &mut State, path: PathBuf) {
 
 /// The field for the path; says whether Enter was pressed in it.
 fn path_field(ui: &mut Ui, state: &mut State) -> bool {
-    let (name, hint) = (state.say(ExportText::Path), state.say(ExportText::PathHint));
+    let by_path = state.files.by_path;
+    let name = if by_path { state.say(ExportText::Path) } else { state.say(FilesText::FileName) };
+    let hint = if by_path { state.say(ExportText::PathHint) } else { "" };
     let mut entered = false;
     ui.horizontal(|ui| {
         let export = &mut state.export;
@@ -154,7 +152,7 @@ fn path_field(ui: &mut Ui, state: &mut State) -> bool {
         });
     });
     let whole = std::path::absolute(state.export.path.trim()).unwrap_or_default();
-    if let Some(folder) = whole.parent() {
+    if let Some(folder) = whole.parent().filter(|_| by_path) {
         let words = fill(state.say(ExportText::InFolder), &[&folder.display().to_string()]);
         ui.add(Label::new(RichText::new(words.as_str()).small().weak()).truncate()).on_hover_text(words);
     }

@@ -1,15 +1,19 @@
-//! Writes what the state asks to save, on a thread of its own: nothing here waits, and how it went is one message.
+//! Writes what the state asks to save, beside the window, or hands it to the browser: nothing here waits, and how it went is one message.
 
 use super::{Request, What};
 use crate::bdpt::{PathRecord, Strategy};
 use crate::engine::{Engine, Frame, Layers};
-use crate::film::save::{Layer, Window, check_writable, save_bytes, save_exr, save_png};
+use crate::film::save::{Layer, Window, exr_bytes, png_bytes};
+#[cfg(not(target_arch = "wasm32"))]
+use crate::film::save::{SaveError, check_writable, save_bytes};
+use crate::math::Vec3;
 use crate::report::export;
 use crate::task;
 use crate::ui::compare::{self, Pair};
 use crate::ui::darkroom::{Recipe, develop, on_show};
+use crate::ui::files::limits::mebibytes;
 use crate::ui::state::State;
-use crate::ui::text::{ExportText, fill};
+use crate::ui::text::{ExportText, FilesText, fill};
 use crate::ui::wake::Wake;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -32,7 +36,7 @@ pub struct Sources<'a> {
 enum Content {
     Seen(Vec<compare::Content>, Recipe),
     Radiance(Arc<Frame>),
-    Layers(Receiver<Layers>),
+    Layers(async_channel::Receiver<Layers>),
     Json(Arc<PathRecord>),
     Diagram(Arc<PathRecord>, Strategy),
     Strategies(Arc<PathRecord>),
@@ -57,34 +61,70 @@ impl Content {
         })
     }
 
-    fn write(self, path: &Path) -> Result<(), String> {
-        let text = |text: String| save_bytes(path, text.as_bytes()).map_err(|error| error.to_string());
-        // A bad destination is found before the images are made.
-        check_writable(path).map_err(|error| error.to_string())?;
+    /// The file's bytes.
+    async fn bytes(self) -> Result<Vec<u8>, String> {
         match self {
             Self::Seen(contents, recipe) => {
                 let image = develop(&contents, recipe).image;
                 let rgb: Vec<u8> = image.pixels.iter().flat_map(|pixel| [pixel.r(), pixel.g(), pixel.b()]).collect();
-                save_png(path, image.size.map(|n| n as u32), &rgb).map_err(|error| error.to_string())
+                png_bytes(image.size.map(|n| n as u32), &rgb)
             }
             Self::Radiance(frame) => {
                 let layer = Layer { name: "", pixels: &frame.image };
-                save_exr(path, Window::full(frame.size), &[layer]).map_err(|error| error.to_string())
+                exr_bytes(Window::full(frame.size), &[layer])
             }
             Self::Layers(answer) => {
-                let layers = answer.recv().map_err(|error| error.to_string())?;
+                let layers = answer.recv().await.map_err(|error| error.to_string())?;
                 let list: Vec<Layer<'_>> = layers.layers.iter().map(|(name, pixels)| Layer { name, pixels }).collect();
-                save_exr(path, Window::full(layers.size), &list).map_err(|error| error.to_string())
+                exr_bytes(Window::full(layers.size), &list)
             }
-            Self::Json(record) => text(export::record_json(&record)?),
-            Self::Diagram(record, strategy) => text(export::diagram_svg(&record, Some(strategy))),
-            Self::Strategies(record) => text(export::strategies_csv(&record)),
-            Self::Vertices(record) => text(export::vertices_csv(&record)),
+            Self::Json(record) => Ok(export::record_json(&record)?.into_bytes()),
+            Self::Diagram(record, strategy) => Ok(export::diagram_svg(&record, Some(strategy)).into_bytes()),
+            Self::Strategies(record) => Ok(export::strategies_csv(&record).into_bytes()),
+            Self::Vertices(record) => Ok(export::vertices_csv(&record).into_bytes()),
         }
+    }
+
+    /// Writes them to the file of this path.
+    #[cfg(not(target_arch = "wasm32"))]
+    async fn save(self, path: &Path) -> Result<(), Failure> {
+        let plain = |error: SaveError| Failure::Said(error.to_string());
+        // A bad destination is found before the images are made.
+        check_writable(path).map_err(plain)?;
+        let bytes = self.bytes().await.map_err(|why| Failure::Said(format!("cannot write '{}': {why}", path.display())))?;
+        save_bytes(path, &bytes).map_err(plain)
+    }
+
+    /// Hands them to the browser's downloads.
+    #[cfg(target_arch = "wasm32")]
+    async fn save(self, path: &Path) -> Result<(), Failure> {
+        let handed = self.bytes().await.and_then(|bytes| crate::ui::web::files::download(&path.display().to_string(), &bytes));
+        handed.map_err(Failure::NoDownload)
     }
 }
 
-type Outcome = (PathBuf, Result<(), String>);
+/// Why a file is not there.
+enum Failure {
+    /// For the reason in this sentence.
+    Said(String),
+    /// The browser did not take it, and what it says.
+    #[cfg(target_arch = "wasm32")]
+    NoDownload(String),
+    /// Its layers have so many bytes, more than there is room for.
+    TooLarge(u64),
+}
+
+/// Most bytes of layers that are saved: in a browser, which needs them three times, for want of memory.
+const MOST_LAYER_BYTES: u64 = if cfg!(target_arch = "wasm32") { 256 << 20 } else { u64::MAX };
+
+/// How many bytes the layers of a frame have, if they are more than `most`.
+fn too_large(size: [u32; 2], layers: usize, most: u64) -> Option<u64> {
+    let pixels = u64::from(size[0]) * u64::from(size[1]);
+    let bytes = pixels.saturating_mul(layers as u64 * size_of::<Vec3>() as u64);
+    (bytes > most).then_some(bytes)
+}
+
+type Outcome = (PathBuf, Result<(), Failure>);
 
 /// Writes files beside the window.
 pub struct Saver {
@@ -110,9 +150,12 @@ impl Saver {
         }
         if let Some(Request { what, path }) = state.export.request.take() {
             let path = std::path::absolute(&path).unwrap_or(path);
-            match Content::of(what, state, sources) {
-                Some(content) => self.start(state, content, path),
-                None => state.tell(true, state.say(ExportText::NothingYet).to_owned()),
+            let layers = sources.frame.filter(|_| what == What::Layers);
+            let too_large = layers.and_then(|frame| too_large(frame.size, frame.thumbnails.len(), MOST_LAYER_BYTES));
+            match (too_large, Content::of(what, state, sources)) {
+                (Some(bytes), _) => tell(state, &path, Err(Failure::TooLarge(bytes))),
+                (None, Some(content)) => self.start(state, content, path),
+                (None, None) => state.tell(true, state.say(ExportText::NothingYet).to_owned()),
             }
             changed = true;
         }
@@ -121,30 +164,49 @@ impl Saver {
 
     fn start(&self, state: &mut State, content: Content, path: PathBuf) {
         let (sender, wake, destination) = (self.sender.clone(), self.wake.clone(), path.clone());
-        let work = move || {
-            let outcome = content.write(&destination);
+        let work = move || async move {
+            task::painted().await;
+            let outcome = content.save(&destination).await;
             // The window may be gone meanwhile; the file is there.
             drop(sender.send((destination, outcome)));
             wake.now();
         };
-        match task::once("save", work) {
+        match task::spawn("save", work) {
             Ok(_) => state.export.underway += 1,
-            Err(error) => tell(state, &path, Err(error.to_string())),
+            Err(error) => tell(state, &path, Err(Failure::Said(error.to_string()))),
         }
     }
 }
 
 /// One message at a time: what was said of the file before goes.
-fn tell(state: &mut State, path: &Path, outcome: Result<(), String>) {
+fn tell(state: &mut State, path: &Path, outcome: Result<(), Failure>) {
     let said = state.export.told.take();
     if said.is_some() {
         state.retract(said);
     }
     let error = outcome.is_err();
+    let name = path.display().to_string();
     let text = match outcome {
-        Ok(()) => fill(state.say(ExportText::Saved), &[&path.display().to_string()]),
-        Err(why) => why,
+        Ok(()) if cfg!(target_arch = "wasm32") => fill(state.say(FilesText::Downloaded), &[&name]),
+        Ok(()) => fill(state.say(ExportText::Saved), &[&name]),
+        Err(Failure::Said(why)) => why,
+        #[cfg(target_arch = "wasm32")]
+        Err(Failure::NoDownload(why)) => fill(state.say(FilesText::NoDownload), &[&name, &why]),
+        Err(Failure::TooLarge(bytes)) => fill(state.say(FilesText::LayersTooLarge), &[&mebibytes(bytes), &mebibytes(MOST_LAYER_BYTES)]),
     };
     state.export.told = Some(text.clone());
     state.tell(error, text);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn layers_are_refused_by_their_bytes() {
+        let size = [1024, 1024];
+        assert_eq!(too_large(size, 21, 256 << 20), None);
+        assert_eq!(too_large(size, 22, 256 << 20), Some(22 * 12 << 20));
+        assert_eq!(too_large([u32::MAX; 2], 1, u64::MAX), None);
+    }
 }

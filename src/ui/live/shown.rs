@@ -1,8 +1,8 @@
 //! The scene on show: loaded, loaded again when its file changes, and with the edits of the person.
 
-use super::super::edit::dialog::Answer;
 use super::super::edit::recent;
 use super::super::edit::reload::{self, Reload};
+use super::super::files;
 use super::super::loader::Failure;
 use super::super::state::{Opening, State};
 use super::super::text::{EditText, Text, fill};
@@ -50,7 +50,7 @@ impl Live {
                     state.tell(false, note);
                 }
                 // The same scene in another light, or read again, keeps its camera and what was changed.
-                let same = |old: &Opening| (&old.scene, &old.inside) == (&opening.scene, &opening.inside);
+                let same = |old: &Opening| old.same_file(&opening) && old.inside == opening.inside;
                 if let Some(old) = self.opened().filter(|old| same(old)) {
                     let relit = old.environment != opening.environment;
                     let fitted = |edits: &SceneEdits| {
@@ -74,7 +74,9 @@ impl Live {
                 if state.camera >= scene.cameras.len() {
                     state.choose_camera(0);
                 }
-                recent::remember(&mut state.prefs, &opening.scene);
+                if opening.files.is_none() {
+                    recent::remember(&mut state.prefs, &opening.scene);
+                }
                 self.reload = reading;
                 self.shown = Some(Shown::new(Arc::new(scene), opening));
             }
@@ -105,21 +107,19 @@ impl Live {
 
     /// Starts loading; from the version of the file that is read now, a change to it counts.
     pub(super) fn load(&mut self, opening: Opening) {
+        if opening.files.is_some() {
+            self.reading = Reload::default();
+            return self.loader.start(opening);
+        }
         let opening = Opening { scene: recent::whole(&opening.scene), ..opening };
         self.reading = Reload::reading(&opening.scene);
         self.loader.start(opening);
     }
 
-    /// The file dialog's answer, and a new version of the file on show.
+    /// What was chosen or dropped, and a new version of the file on show.
     pub(super) fn look_for_files(&mut self, state: &mut State) {
-        if std::mem::take(&mut state.edit.ask_for_file) {
-            self.dialog.open(state.say(EditText::OpenTitle), &self.wake);
-        }
-        match self.dialog.answer() {
-            Some(Answer::File(path)) => state.open = Some(Opening::of(path.display().to_string())),
-            Some(Answer::Unavailable) => state.tell(false, state.say(EditText::NoDialog).to_owned()),
-            Some(Answer::Cancelled) | None => {}
-        }
+        self.intake.sync(state);
+        files::sort(state, self);
         let Some(opening) = self.opened().filter(|opening| self.reload.follows(&opening.scene)).cloned() else { return };
         self.wake.within(reload::INTERVAL);
         if self.loading().is_none() && self.reload.changed(&opening.scene) {

@@ -27,5 +27,4 @@ texts! { ExportText;
     Saving: "saving …", "正在保存……";
     Saved: "Saved {}", "已保存 {}";
     NothingYet: "There is nothing to save yet.", "尚无可保存的内容。";
-    NotInBrowser: "Saving is not available in the browser yet.", "浏览器中暂不支持保存。";
 }

@@ -1,7 +1,7 @@
 //! The page around the canvas: its address, its language, and the regions of real HTML in `web/index.html`.
 
 use crate::ui::text::Lang;
-use js_sys::{Function, Reflect};
+use js_sys::{Array, Function, Reflect};
 use wasm_bindgen::{JsCast, JsValue};
 use web_sys::{Document, Element, HtmlCanvasElement, Window};
 
@@ -28,18 +28,6 @@ pub fn query(name: &str) -> Option<String> {
     web_sys::UrlSearchParams::new_with_str(&search).ok()?.get(name)
 }
 
-/// The address from the `#` on, as it is written.
-pub fn hash() -> String {
-    window().and_then(|window| window.location().hash().ok()).unwrap_or_default()
-}
-
-/// Writes the address from the `#` on; the way back in the browser's history stays as it is.
-pub fn set_hash(hash: &str) {
-    let Some(window) = window().filter(|_| self::hash() != hash) else { return };
-    // A browser that refuses (Safari, more than a hundred times in half a minute) shows an older address for a while.
-    drop(window.history().map(|history| history.replace_state_with_url(&JsValue::NULL, "", Some(hash))));
-}
-
 /// The page speaks this language, too.
 pub fn set_lang(lang: Lang) {
     let (tag, title) = match lang {
@@ -60,17 +48,8 @@ pub fn note(name: &str, value: &str) {
 
 /// Says what has gone wrong to those who listen to the page; nothing, if all is well.
 pub fn alert(text: &str) {
-    say("alerts", text);
-}
-
-/// The summary of what is selected, for those who listen to the page.
-pub fn summary(text: &str) {
-    say("summary", text);
-}
-
-fn say(id: &str, text: &str) {
     // A region that is written again is read out again.
-    if let Some(region) = element(id).filter(|region| region.text_content().as_deref() != Some(text)) {
+    if let Some(region) = element("alerts").filter(|region| region.text_content().as_deref() != Some(text)) {
         region.set_text_content(Some(text));
     }
 }
@@ -116,10 +95,34 @@ pub fn fail(kind: &str, detail: &str) {
     call("fail", &[kind, detail]);
 }
 
+/// Something went wrong, but the program goes on: it will show this.
+pub fn report(text: &str) {
+    call("note", &[text]);
+}
+
+/// What went wrong, in the program or in the page's scripts, since this was asked last.
+pub fn take_reports() -> Vec<String> {
+    let notes = script().and_then(|script| Reflect::get(&script, &"notes".into()).ok()).and_then(|notes| notes.dyn_into::<Array>().ok());
+    let Some(notes) = notes.filter(|notes| notes.length() > 0) else { return Vec::new() };
+    let texts = notes.iter().filter_map(|text| text.as_string()).collect();
+    notes.set_length(0);
+    texts
+}
+
+/// `wake` is called when there is something to report.
+pub fn on_report(wake: &Function) {
+    script().map(|script| Reflect::set(&script, &"wake".into(), wake));
+}
+
+/// What the page's script and the program have in common (`bdpt` in `web/loader.js`).
+fn script() -> Option<JsValue> {
+    let window: JsValue = window()?.into();
+    Reflect::get(&window, &"bdpt".into()).ok().filter(JsValue::is_object)
+}
+
 /// Calls a function of the page's script.
 fn call(name: &str, arguments: &[&str]) {
-    let arguments = arguments.iter().map(|text| JsValue::from_str(text)).collect::<js_sys::Array>();
-    let script = window().and_then(|window| Reflect::get(&window, &"bdpt".into()).ok());
-    let function = script.and_then(|script| Reflect::get(&script, &name.into()).ok()).and_then(|value| value.dyn_into::<Function>().ok());
+    let arguments = arguments.iter().map(|text| JsValue::from_str(text)).collect::<Array>();
+    let function = script().and_then(|script| Reflect::get(&script, &name.into()).ok()).and_then(|value| value.dyn_into::<Function>().ok());
     function.map(|function| function.apply(&JsValue::NULL, &arguments));
 }

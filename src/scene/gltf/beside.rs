@@ -1,0 +1,73 @@
+//! The files beside a scene's: in its folder, or in memory with it.
+
+use super::super::files::{File, Files, decoded};
+use ::gltf::json::Root;
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// Missing files that are named one by one.
+const MOST_NAMED: usize = 40;
+
+/// Where the files are that a scene's file names.
+#[derive(Clone, Copy)]
+pub enum Beside<'a> {
+    /// Nowhere.
+    Nothing,
+    /// In a folder.
+    Folder(&'a Path),
+    /// In memory.
+    Files(&'a Files),
+}
+
+impl<'a> Beside<'a> {
+    /// Reads what a document names.
+    pub fn fetch(self, uri: &str, root: &Root) -> Result<Cow<'a, [u8]>, String> {
+        if let Some(scheme) = scheme(uri) {
+            return Err(format!("'{uri}' has the scheme '{scheme}', only files beside this one are read; export it as one .glb file"));
+        }
+        match self {
+            Self::Nothing => Err(format!("it lies in another file, '{uri}'; export the scene as one .glb file")),
+            Self::Folder(folder) => {
+                let path = folder.join(decoded(uri));
+                let bytes = super::super::read::whole(&path);
+                let bytes =
+                    bytes.map_err(|e| format!("cannot read '{}' ({e}); put it there or export the scene as one .glb file", path.display()));
+                bytes.map(Cow::Owned)
+            }
+            Self::Files(files) => match files.find(uri)? {
+                Some(File { bytes, .. }) => Ok(Cow::Borrowed(bytes)),
+                None => Err(missing(files, root)),
+            },
+        }
+    }
+}
+
+/// What stands before the colon of a URI that is no file's; one letter is a drive's.
+fn scheme(uri: &str) -> Option<&str> {
+    uri.split_once(':').map(|(scheme, _)| scheme).filter(|s| s.len() > 1 && s.chars().all(char::is_alphanumeric))
+}
+
+/// Every file a document names, once.
+pub fn named(root: &Root) -> BTreeSet<String> {
+    let buffers = root.buffers.iter().filter_map(|buffer| buffer.uri.clone());
+    let images = root.images.iter().filter_map(|image| image.uri.clone());
+    let shown = root.scene.map_or(0, |scene| scene.value());
+    let environment = root.scenes.get(shown).and_then(|scene| {
+        let members = super::container::Document::members(&scene.extras).ok()?;
+        members.get("environment")?.as_str().map(str::to_owned)
+    });
+    buffers.chain(images).chain(environment).filter(|uri| scheme(uri).is_none()).collect()
+}
+
+/// Says which of the files that a document names were not given.
+fn missing(files: &Files, root: &Root) -> String {
+    let missing: Vec<String> = named(root).iter().filter(|uri| matches!(files.find(uri), Ok(None))).map(|uri| decoded(uri)).collect();
+    let names: Vec<String> = missing.iter().take(MOST_NAMED).map(|name| format!("'{name}'")).collect();
+    let more = if missing.len() > MOST_NAMED { format!(" and {} more", missing.len() - MOST_NAMED) } else { String::new() };
+    let (names, scene) = (names.join(", "), files.scene.short_name());
+    format!(
+        "it lies in another file; not given {} {names}{more}: choose or drop all of them together with '{scene}', or export the scene as one .glb file",
+        if missing.len() == 1 { "is" } else { "are" }
+    )
+}
