@@ -9,16 +9,40 @@
 
 #[path = "browser/driver.rs"]
 mod driver;
+#[path = "browser/life.rs"]
+mod life;
 #[path = "browser/page.rs"]
 mod page;
 #[path = "browser/picture.rs"]
 mod picture;
+#[path = "browser/select.rs"]
+mod select;
 #[path = "browser/site.rs"]
 mod site;
 #[path = "common/skip.rs"]
 mod skip;
 #[path = "browser/start.rs"]
 mod start;
+#[path = "browser/twin.rs"]
+mod twin;
+
+/// The share of pixels that differ by more than a trace.
+fn different(a: &image::RgbaImage, b: &image::RgbaImage) -> f64 {
+    assert_eq!(a.dimensions(), b.dimensions());
+    let far = |(a, b): &(&image::Rgba<u8>, &image::Rgba<u8>)| a.0.iter().zip(&b.0).any(|(a, b)| a.abs_diff(*b) > 3);
+    a.pixels().zip(b.pixels()).filter(far).count() as f64 / f64::from(a.width() * a.height())
+}
+
+/// Mean of all channels, 0 to 255.
+fn brightness(picture: &image::RgbaImage) -> f64 {
+    let sum: u64 = picture.pixels().flat_map(|pixel| &pixel.0[..3]).map(|value| u64::from(*value)).sum();
+    sum as f64 / f64::from(3 * picture.width() * picture.height())
+}
+
+/// How many colours there are.
+fn colours(picture: &image::RgbaImage) -> usize {
+    picture.pixels().map(|pixel| pixel.0).collect::<std::collections::HashSet<_>>().len()
+}
 
 /// Says something on the terminal that is worth knowing of a test that passed.
 fn report(line: &str) {
