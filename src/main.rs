@@ -2,13 +2,23 @@
 
 #[cfg(not(target_arch = "wasm32"))]
 fn main() -> std::process::ExitCode {
-    use bdpt_explorer::{cli, ui};
-    cli::main(|scene| {
-        ui::run(scene).map_err(|error| match error {
+    use bdpt_explorer::cli::{self, Wanted};
+    use bdpt_explorer::ui;
+    let open = |wanted: &Wanted| {
+        let source = match wanted {
+            Wanted::Scene(scene) => scene.clone().map(ui::SceneSource::Named),
+            Wanted::Link(link) => Some(ui::SceneSource::Link(link.clone())),
+        };
+        ui::run(source).map_err(|error| match error {
             ui::WindowError::NotOpened(why) => cli::NoWindow::NotOpened(why),
             ui::WindowError::Ended(why) => cli::NoWindow::Ended(why),
         })
-    })
+    };
+    let follow = |link: &str| {
+        let ui::link::Still { job, hidden, look, note } = ui::link::still(link)?;
+        Ok(cli::Linked { job, hidden, look, note })
+    };
+    cli::main(cli::Windows { open, follow })
 }
 
 #[cfg(target_arch = "wasm32")]

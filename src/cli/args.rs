@@ -18,6 +18,9 @@ pub struct Options {
     pub command: Option<Command>,
     /// A built-in scene (see `scenes`), or a .gltf or .glb file
     pub scene: Option<String>,
+    /// Show what a link from the explorer is about: the whole address, or its part from # on, in quotes
+    #[arg(long, value_name = "URL", conflicts_with = "scene")]
+    pub link: Option<String>,
 }
 
 #[derive(Subcommand)]

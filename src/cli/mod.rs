@@ -10,8 +10,10 @@ mod progress;
 mod render;
 mod values;
 
-use crate::engine::JobError;
+use crate::bdpt::StrategySet;
+use crate::engine::{Job, JobError};
 use crate::film::save::SaveError;
+use crate::film::tonemap::Look;
 use crate::scene::{SceneError, builtin};
 use args::{Command, Options};
 use clap::Parser;
@@ -55,14 +57,47 @@ pub enum NoWindow {
     Ended(String),
 }
 
-/// Runs the program. `open_window` opens the window and returns when it is closed, or says why there is none.
-pub fn main(open_window: impl FnOnce(Option<String>) -> Result<(), NoWindow>) -> ExitCode {
+/// What the window is to show.
+pub enum Wanted {
+    /// A scene; `None` = the first one.
+    Scene(Option<String>),
+    /// What a link is about.
+    Link(String),
+}
+
+/// What a link is about, for who has no window.
+pub struct Linked {
+    /// What is rendered.
+    pub job: Job,
+    /// The strategies left out of the picture.
+    pub hidden: StrategySet,
+    /// How it is shown.
+    pub look: Look,
+    /// What there is to say of the link.
+    pub note: Option<String>,
+}
+
+/// What the program needs from the window's side.
+pub struct Windows<O, L> {
+    /// Opens the window, and returns when it is closed; or says why there is none.
+    pub open: O,
+    /// Understands a link; else a sentence says why not.
+    pub follow: L,
+}
+
+/// Runs the program.
+pub fn main<O, L>(windows: Windows<O, L>) -> ExitCode
+where
+    O: FnOnce(&Wanted) -> Result<(), NoWindow>,
+    L: FnOnce(&str) -> Result<Linked, String>,
+{
     let options = match Options::try_parse() {
         Ok(options) => options,
         Err(error) => return refuse(&error),
     };
     let outcome = match (options.command, options.scene) {
-        (None, scene) => window(scene, open_window).map(|()| ExitCode::SUCCESS),
+        (Some(_), _) if options.link.is_some() => Err(Failure("--link opens the window; leave the command out".to_owned())),
+        (None, scene) => window(&options.link.map_or(Wanted::Scene(scene), Wanted::Link), windows).map(|()| ExitCode::SUCCESS),
         (Some(_), Some(word)) => Err(Failure(format!("'{word}' stands before the command; the command comes first, then its scene"))),
         (Some(Command::Scenes), None) => scenes().map(|()| ExitCode::SUCCESS),
         (Some(Command::Render(args)), None) => render::run(&args).map(|()| ExitCode::SUCCESS),
@@ -98,14 +133,24 @@ fn print(text: &str) {
 }
 
 /// Opens the window, or renders on the CPU where there is none.
-fn window(scene: Option<String>, open_window: impl FnOnce(Option<String>) -> Result<(), NoWindow>) -> Result<(), Failure> {
-    if let Some(name) = &scene {
+fn window<O, L>(wanted: &Wanted, windows: Windows<O, L>) -> Result<(), Failure>
+where
+    O: FnOnce(&Wanted) -> Result<(), NoWindow>,
+    L: FnOnce(&str) -> Result<Linked, String>,
+{
+    if let Wanted::Scene(Some(name)) = wanted {
         builtin::open(name)?;
     }
-    match open_window(scene.clone()) {
+    match (windows.open)(wanted) {
         Ok(()) => Ok(()),
         Err(NoWindow::Ended(why)) => Err(Failure(why)),
-        Err(NoWindow::NotOpened(why)) => render::without_window(&why, scene.as_deref().unwrap_or("cornell")),
+        Err(NoWindow::NotOpened(why)) => {
+            let instead = match wanted {
+                Wanted::Scene(name) => render::scene(name.as_deref().unwrap_or("cornell"))?,
+                Wanted::Link(link) => (windows.follow)(link).map_err(|reason| Failure(format!("no window: {why}; --link: {reason}")))?,
+            };
+            render::without_window(&why, instead)
+        }
     }
 }
 

@@ -3,12 +3,12 @@
 use super::args::RenderArgs;
 use super::job::{Prepared, open, prepare, say_notes, say_what_is_lost};
 use super::progress::{self, Limit};
-use super::{Failure, print};
+use super::{Failure, Linked, print};
 use crate::bdpt::{HeuristicKind, Strategy, StrategySet};
 use crate::engine::{Job, Notice, Session};
 use crate::film::Rect;
 use crate::film::save::{Layer, Window, check_writable, save_bytes, save_exr, save_png};
-use crate::film::tonemap::{ToneMap, to_srgb8};
+use crate::film::tonemap::{Look, ToneMap, to_srgb8};
 use crate::math::Vec3;
 use crate::report::{ContactSheet, Heading};
 use crate::scene::Overrides;
@@ -53,21 +53,30 @@ pub fn run(args: &RenderArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Renders `scene` at the defaults into a folder, because there is no window to show it in.
-pub fn without_window(why: &str, scene: &str) -> Result<(), Failure> {
-    let scene = open(scene, &Overrides::default())?;
-    say_notes(&scene);
+/// A scene at the defaults.
+pub fn scene(name: &str) -> Result<Linked, Failure> {
+    let job = Job::new(open(name, &Overrides::default())?);
+    Ok(Linked { job, hidden: StrategySet::NONE, look: Look::default(), note: None })
+}
+
+/// Renders into a folder what there is no window to show in.
+pub fn without_window(why: &str, instead: Linked) -> Result<(), Failure> {
+    let Linked { job, hidden, look, note } = instead;
+    say_notes(&job.scene);
     let folder = Path::new("bdpt-explorer-out");
     eprintln!("no window: {why}");
-    eprintln!("rendering {} on the CPU into ./{}/ instead (at most {} s)", scene.name, folder.display(), PATIENCE.as_secs());
-    let stem = Path::new(&scene.name).file_stem().unwrap_or("scene".as_ref()).to_string_lossy().into_owned();
-    let job = Job { weighted_layers: true, ..Job::new(scene) };
-    let shown = job.existence().active(&job.settings).collect();
+    note.iter().for_each(|note| eprintln!("note: {note}"));
+    eprintln!("rendering {} on the CPU into ./{}/ instead (at most {} s)", job.scene.name, folder.display(), PATIENCE.as_secs());
+    let stem = Path::new(&job.scene.name).file_stem().unwrap_or("scene".as_ref()).to_string_lossy().into_owned();
+    let job = Job { weighted_layers: true, ..job };
+    let active: Vec<Strategy> = job.existence().active(&job.settings).collect();
+    let shown: Vec<Strategy> = active.iter().copied().filter(|strategy| !hidden.contains(*strategy)).collect();
+    let hide = shown.len() < active.len();
     say_what_is_lost(job.existence(), &job.settings);
     create_folder(folder)?;
     let [png, exr] = ["png", "exr"].map(|extension| folder.join(format!("{stem}.{extension}")));
     check_writable(&png)?;
-    let mut rendering = Rendering { session: Session::new(job)?, shown, hide: false, exposure_ev: 0.0, tonemap: ToneMap::default() };
+    let mut rendering = Rendering { session: Session::new(job)?, shown, hide, exposure_ev: look.exposure_ev, tonemap: look.tonemap };
     let interrupted = progress::run(&mut rendering.session, Limit { spp: Some(SPP), time: Some(PATIENCE) })?;
     rendering.save_picture(&png)?;
     rendering.save_picture(&exr)?;

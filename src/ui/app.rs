@@ -2,11 +2,14 @@
 
 use super::edit::history::Snapshot;
 use super::image_view::Desk;
+use super::link::{self, Share};
 use super::live::{Live, SceneSource};
 use super::pictures::Pictures;
 use super::state::{Maximised, Preferences, State};
 use super::wake::Wake;
-use super::{files, fonts, help, image_view, inspector, keys, messages, pyramid, space, status_bar, theme, top_bar, tour};
+use super::{
+    files, fonts, help, image_view, inspector, keys, messages, phone, pyramid, space, status_bar, theme, top_bar, touch, tour,
+};
 use eframe::egui::{self, CentralPanel, Color32, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
 use eframe::egui_wgpu::RenderState;
 use web_time::Instant;
@@ -48,9 +51,10 @@ impl App {
         theme::install(ctx);
         let wake = Wake::new(ctx);
         let mut live = Live::new(&wake);
-        live.open(start.source);
+        let mut state = State::new(preferences.unwrap_or_default(), start.size);
+        live.open(start.source, &mut state);
         Self {
-            state: State::new(preferences.unwrap_or_default(), start.size),
+            state,
             live,
             desk: Desk::new(ctx, &wake),
             wake,
@@ -89,6 +93,22 @@ impl App {
         &self.live
     }
 
+    /// A link to what is on show, from the # on; empty while nothing is. While the scene of the last link is not on show yet, that
+    /// link.
+    pub fn link(&self) -> String {
+        link::text(&self.state, &self.live).0
+    }
+
+    /// Shows what a link is about: a whole address, or its part from # on. What cannot be followed is said.
+    pub fn open_link(&mut self, link: &str) {
+        link::open(&mut self.state, &self.live, link);
+    }
+
+    /// From now on, links that are copied start with this address (which has no #).
+    pub fn set_link_base(&mut self, address: String) {
+        self.state.link.base = address;
+    }
+
     /// Where the centre of a pixel is on the screen.
     pub fn on_screen(&self, pixel: [u32; 2]) -> Pos2 {
         let [width, height] = self.state.size.map(|n| n as f32);
@@ -112,7 +132,12 @@ impl App {
     fn panels(&mut self, ui: &mut Ui, gpu: Option<&RenderState>) {
         // A view that is not shown hears no keys.
         self.state.space.attention = Default::default();
-        let Self { state, live, pictures, desk, stage, .. } = self;
+        let Self { state, live, pictures, desk, stage, ui_ms, .. } = self;
+        if state.phone {
+            let views = phone::Views { pictures, desk, stage, gpu, ui_ms: *ui_ms };
+            self.image = phone::show(ui, state, live, views).unwrap_or(self.image);
+            return;
+        }
         // The window is cleared to the panels' ground: painting it once more would cost a software adapter a whole frame's time.
         let bar = |top: i8| {
             Frame::side_top_panel(ui.style()).fill(Color32::TRANSPARENT).inner_margin(Margin { left: 10, right: 10, top, bottom: top })
@@ -127,6 +152,9 @@ impl App {
         }
         Panel::bottom("status bar").frame(slim).show(ui, |ui| status_bar::show(ui, state, live, self.ui_ms));
         let body = Frame::central_panel(ui.style()).fill(Color32::TRANSPARENT).inner_margin(Margin::symmetric(10, 8));
+        if std::mem::take(&mut state.link.resized) {
+            link::let_go(ui);
+        }
         let whole = CentralPanel::default().frame(body);
         match state.maximised {
             Maximised::Pyramid => return drop(whole.show(ui, |ui| pyramid::show(ui, state, live, pictures))),
@@ -136,15 +164,18 @@ impl App {
             Maximised::None => {
                 let room = ui.available_size();
                 if state.prefs.inspector_open {
-                    let panel = Panel::right("inspector")
-                        .frame(body)
-                        .default_size((room.x * 0.36).min(470.0))
-                        .size_range(340.0..=(room.x - IMAGE_ROOM.x).max(340.0));
-                    panel.show(ui, |ui| inspector::show(ui, state, live));
+                    let share = Share::of(state.shares[0], room.x, (room.x * 0.36).min(470.0));
+                    let panel = Panel::right("inspector").frame(body).default_size(share.size());
+                    let panel = panel.size_range(340.0..=(room.x - IMAGE_ROOM.x).max(340.0));
+                    let shown = panel.show(ui, |ui| inspector::show(ui, state, live)).response.rect;
+                    state.shares[0] = share.seen(shown.width());
                 }
                 if state.prefs.pyramid_open {
-                    let panel = Panel::bottom("pyramid").frame(body).resizable(true).default_size((room.y * 0.43).min(PYRAMID_HEIGHT));
-                    panel.size_range(130.0..=(room.y - IMAGE_ROOM.y).max(130.0)).show(ui, |ui| pyramid::show(ui, state, live, pictures));
+                    let share = Share::of(state.shares[1], room.y, (room.y * 0.43).min(PYRAMID_HEIGHT));
+                    let panel = Panel::bottom("pyramid").frame(body).resizable(true).default_size(share.size());
+                    let panel = panel.size_range(130.0..=(room.y - IMAGE_ROOM.y).max(130.0));
+                    let shown = panel.show(ui, |ui| pyramid::show(ui, state, live, pictures)).response.rect;
+                    state.shares[1] = share.seen(shown.height());
                 }
                 let room = ui.available_size();
                 state.narrow = room.x < SIDE_BY_SIDE;
@@ -152,8 +183,11 @@ impl App {
                     return drop(whole.show(ui, |ui| space::show(ui, state, live, stage, gpu)));
                 }
                 if state.prefs.space_open && !state.narrow {
-                    let panel = Panel::right("space").frame(body).resizable(true).default_size(room.x * 0.5);
-                    panel.size_range(200.0..=(room.x - 240.0).max(200.0)).show(ui, |ui| space::show(ui, state, live, stage, gpu));
+                    let share = Share::of(state.shares[2], room.x, room.x * 0.5);
+                    let panel = Panel::right("space").frame(body).resizable(true).default_size(share.size());
+                    let panel = panel.size_range(200.0..=(room.x - 240.0).max(200.0));
+                    let shown = panel.show(ui, |ui| space::show(ui, state, live, stage, gpu)).response.rect;
+                    state.shares[2] = share.seen(shown.width());
                 }
             }
         }
@@ -163,18 +197,22 @@ impl App {
 
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
-        theme::choose(ctx, &self.state.prefs);
+        self.state.phone = theme::is_small(ctx);
+        theme::choose(ctx, &self.state.prefs, self.state.phone || self.state.touch);
         self.sync(ctx);
     }
 
     fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
         let start = Instant::now();
+        touch::watch(ui.ctx(), &mut self.state);
         keys::obey(ui.ctx(), &mut self.state, image_view::id());
         self.pictures.collect(ui.ctx());
         self.desk.darkroom.collect(ui.ctx());
         files::drops(ui, &mut self.state, &self.live);
         self.panels(ui, frame.wgpu_render_state());
         help::show(ui.ctx(), &mut self.state);
+        link::copy(ui.ctx(), &mut self.state, &self.live);
+        link::show_copied(ui.ctx(), &mut self.state);
         keys::release_after_click(ui.ctx());
         // What was changed just now is on its way before the next pass.
         let ctx = ui.ctx().clone();

@@ -24,9 +24,12 @@ const LINE: f32 = 15.0;
 /// Height of the caption: two lines, and the bar of the share.
 const CAPTION: f32 = 2.0 * LINE + 4.0;
 
+/// A cell narrower than this has no room for two fingers' targets beside each other, points.
+const FINGERS: f32 = 96.0;
+
 /// The size of a cell: as wide as chosen, with the film's shape.
 pub fn size(state: &State) -> Vec2 {
-    let width = state.prefs.cell;
+    let width = if state.phone || state.touch { state.prefs.cell.max(FINGERS) } else { state.prefs.cell };
     let aspect = state.size[1] as f32 / state.size[0].max(1) as f32;
     vec2(width, (width * aspect).clamp(66.0, 2.0 * width))
 }
@@ -206,6 +209,16 @@ fn tooltip(state: &State, live: &Live, content: &Content, response: Response) {
     });
 }
 
+/// Where a switch is hit: a finger needs the whole corner.
+fn target(ui: &Ui, switch: Rect, picture: Rect) -> Rect {
+    if !theme::for_fingers(ui.style()) {
+        return switch;
+    }
+    let size = ui.spacing().interact_size.y;
+    let left = if switch.center().x < picture.center().x { picture.left() } else { picture.right() - size };
+    Rect::from_min_size(pos2(left, picture.top()), Vec2::splat(size))
+}
+
 /// Hide and remove, in the picture's upper corners.
 fn switches(ui: &mut Ui, state: &mut State, strategy: Strategy, picture: Rect) {
     let button = vec2(22.0, 19.0);
@@ -215,7 +228,10 @@ fn switches(ui: &mut Ui, state: &mut State, strategy: Strategy, picture: Rect) {
     let at = Rect::from_min_size(picture.min + vec2(4.0, 4.0), button);
     let label = format!("{name}: {}", state.say(Text::Hide));
     let id = ui.scope_id().with(("hide", strategy));
-    let response = icon_toggle(ui, IconToggle { rect: at, id, icon: Icon::Eye, on: !hidden, enabled: !removed, name: &label });
+    let response = icon_toggle(
+        ui,
+        IconToggle { rect: at, target: target(ui, at, picture), id, icon: Icon::Eye, on: !hidden, enabled: !removed, name: &label },
+    );
     if response.clicked() {
         state.hidden.set(strategy, !hidden);
     }
@@ -223,7 +239,10 @@ fn switches(ui: &mut Ui, state: &mut State, strategy: Strategy, picture: Rect) {
     let at = Rect::from_min_size(pos2(picture.right() - button.x - 4.0, picture.top() + 4.0), button);
     let label = format!("{name}: {}", state.say(Text::Remove));
     let id = ui.scope_id().with(("remove", strategy));
-    let response = icon_toggle(ui, IconToggle { rect: at, id, icon: Icon::TakeOut, on: !removed, enabled: true, name: &label });
+    let response = icon_toggle(
+        ui,
+        IconToggle { rect: at, target: target(ui, at, picture), id, icon: Icon::TakeOut, on: !removed, enabled: true, name: &label },
+    );
     if response.clicked() {
         state.settings.strategies.set(strategy, removed);
     }

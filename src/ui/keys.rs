@@ -55,6 +55,8 @@ pub enum Action {
     Undo,
     /// Take an undone step again.
     Redo,
+    /// A link to what is on show.
+    CopyLink,
     /// The list of keys.
     Help,
     /// The 3-D view frames the selection.
@@ -119,6 +121,7 @@ pub const TABLE: &[Binding] = &[
     Binding { action: Action::Pause, shown: "P", text: Text::KeyPause, keys: &[Key::P], shift: false },
     Binding { action: Action::Undo, shown: "Ctrl+Z, Ctrl+Shift+Z", text: Text::KeyUndo, keys: &[Key::Z], shift: true },
     Binding { action: Action::Redo, shown: "Ctrl+Y", text: Text::KeyRedo, keys: &[Key::Y], shift: false },
+    Binding { action: Action::CopyLink, shown: "U", text: Text::KeyCopyLink, keys: &[Key::U], shift: false },
     Binding { action: Action::Help, shown: "?", text: Text::KeyHelp, keys: &[Key::Questionmark], shift: true },
 ];
 
@@ -293,6 +296,7 @@ pub fn perform(state: &mut State, action: Action, index: usize, shift: bool) {
         Action::Find => inspector::start_search(state, if shift { inspector::Goal::Brightest } else { inspector::Goal::Light }),
         Action::Undo => history::go(state, !shift),
         Action::Redo => history::go(state, false),
+        Action::CopyLink => state.link.copy = true,
         Action::Help => state.help = !state.help,
         Action::Frame | Action::Orbit | Action::Dolly => space::step(state, action, index),
         // What is held, not what is pressed, flies.
@@ -308,7 +312,10 @@ pub fn step_sample(state: &mut State, back: bool) {
 
 /// Closes what is open; with nothing open, the view goes back to the image.
 fn back(state: &mut State) {
-    let open = std::mem::take(&mut state.help) | std::mem::take(&mut state.picking_focus) | state.inspect.search.take().is_some();
+    let open = std::mem::take(&mut state.help)
+        | std::mem::take(&mut state.menu)
+        | std::mem::take(&mut state.picking_focus)
+        | state.inspect.search.take().is_some();
     if !open {
         state.compare.a = Source::Image;
     }

@@ -9,6 +9,7 @@ use super::edit::reload::Reload;
 use super::export::{Saver, Sources};
 use super::files::Intake;
 use super::inspector;
+use super::link;
 use super::loader::Loader;
 use super::state::{Opening, State};
 use super::study;
@@ -35,6 +36,8 @@ pub enum SceneSource {
     Named(String),
     /// In memory already.
     Ready(Arc<Scene>),
+    /// What a link is about.
+    Link(String),
 }
 
 /// What a record depends on.
@@ -105,13 +108,14 @@ impl Live {
     }
 
     /// Starts with a scene.
-    pub fn open(&mut self, source: SceneSource) {
+    pub fn open(&mut self, source: SceneSource, state: &mut State) {
         match source {
             SceneSource::Ready(scene) => {
                 let opening = Opening::of(scene.name.as_str());
                 self.shown = Some(Shown::new(scene, opening));
             }
             SceneSource::Named(name) => self.load(Opening::of(name)),
+            SceneSource::Link(text) => link::open(state, self, &text),
         }
     }
 
@@ -278,6 +282,7 @@ impl Live {
 
     fn sync_job(&mut self, state: &mut State) -> bool {
         let Some(shown) = self.shown.clone() else { return false };
+        let sampled = std::mem::take(&mut state.link.sampled);
         let current = self.engine.as_ref().map(Engine::job);
         let same_but_for_dragging = current.is_some_and(|job| {
             self.running.as_ref().is_some_and(|old| Arc::ptr_eq(&old.file, &shown.file))
@@ -310,7 +315,7 @@ impl Live {
         state.retract(self.refused.take());
         self.refused = result.as_ref().err().map(|error| error.0.clone());
         match result {
-            Ok(()) if moved => state.selection.sample = 0,
+            Ok(()) if moved && !sampled => state.selection.sample = 0,
             Ok(()) => {}
             Err(error) => {
                 // The old rendering goes on: the state says what is running.

@@ -1,5 +1,5 @@
 //! The marks of the overlay can be clicked: a vertex, a connection or a splat selects its strategy and vertex, wherever else they
-//! are shown. With Ctrl held a click goes through to the pixel.
+//! are shown. With Ctrl held a click goes through to the pixel, and so does a finger that stays.
 
 use super::format::indexed;
 use super::inspector::{eye_vertex, light_vertex};
@@ -10,10 +10,11 @@ use super::projection::{Projection, Projector};
 use super::state::State;
 use super::text::{InspectText, fill};
 use super::theme;
+use super::touch;
 use super::widgets::full_name;
 use crate::bdpt::Strategy;
 use crate::bdpt::record::{PathRecord, VertexRecord};
-use eframe::egui::{self, Modifiers, Pos2, Rect, RichText, Sense, Ui, vec2};
+use eframe::egui::{self, Pos2, Rect, RichText, Sense, Ui, vec2};
 
 /// How near is on it, points.
 const NEAR_POINT: f32 = 8.0;
@@ -34,10 +35,7 @@ enum Target {
 type Shape = [Pos2; 2];
 
 /// A click on the image at `cursor`: selects the mark there, if there is one.
-pub fn click(ui: &Ui, state: &mut State, live: &Live, places: [Rect; 2], cursor: Pos2) -> bool {
-    if ui.input(|input| input.modifiers.contains(Modifiers::COMMAND)) {
-        return false;
-    }
+pub fn click(state: &mut State, live: &Live, places: [Rect; 2], cursor: Pos2) -> bool {
     let (Some(scene), Some(record)) = (live.scene(), live.record(state)) else { return false };
     let Some(camera) = live.camera(state) else { return false };
     let projector = Projector::new(scene, &camera, state.size, places);
@@ -82,7 +80,8 @@ fn at(state: &State, record: &PathRecord, projector: &Projector, cursor: Pos2) -
         let along = if a == b { 0.0 } else { (to.dot(d) / d.length_sq()).clamp(0.0, 1.0) };
         (to - d * along).length()
     };
-    let near = |(_, shape): &(Target, Shape)| distance(*shape) <= if shape[0] == shape[1] { NEAR_POINT } else { NEAR_LINE };
+    let [point, line] = [NEAR_POINT, NEAR_LINE].map(|points| touch::reach(state, points));
+    let near = |(_, shape): &(Target, Shape)| distance(*shape) <= if shape[0] == shape[1] { point } else { line };
     let order = |(_, shape): &(Target, Shape)| (shape[0] != shape[1], distance(*shape));
     let compare = |a: &(Target, Shape), b: &(Target, Shape)| {
         let (a, b) = (order(a), order(b));

@@ -2,10 +2,19 @@
 
 use super::state::State;
 use super::text::Text;
-use eframe::egui::{Align, Label, Layout, RichText, Ui};
+use eframe::egui::{Align, Label, Layout, RichText, ScrollArea, Ui};
 
 /// Shows the messages, each with a button that dismisses it.
 pub fn show(ui: &mut Ui, state: &mut State) {
+    if state.phone {
+        // Several long ones must not push the rest out of the window.
+        let most = 0.35 * ui.ctx().content_rect().height();
+        return drop(ScrollArea::vertical().id_salt("messages").max_height(most).show(ui, |ui| list(ui, state)));
+    }
+    list(ui, state);
+}
+
+fn list(ui: &mut Ui, state: &mut State) {
     let mut dismissed = None;
     for (index, message) in state.messages.iter().enumerate() {
         ui.horizontal(|ui| {
@@ -16,11 +25,16 @@ pub fn show(ui: &mut Ui, state: &mut State) {
                 if ui.button(state.say(Text::Dismiss)).clicked() {
                     dismissed = Some(index);
                 }
-                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    ui.add(Label::new(message.text.as_str()).truncate()).on_hover_text(message.text.as_str());
-                });
+                if !state.phone {
+                    ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                        ui.add(Label::new(message.text.as_str()).truncate()).on_hover_text(message.text.as_str());
+                    });
+                }
             });
         });
+        if state.phone {
+            ui.add(Label::new(message.text.as_str()).wrap());
+        }
     }
     if let Some(index) = dismissed {
         state.messages.remove(index);

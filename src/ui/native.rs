@@ -47,12 +47,12 @@ pub struct Hooks<'a> {
     pub every_pass: Option<EveryPass<'a>>,
 }
 
-/// Opens the window on a scene (a built-in name or a path), and returns when it is closed.
+/// Opens the window on a scene, and returns when it is closed.
 ///
 /// # Errors
 /// If there is no display or no usable graphics adapter, or the adapter fails again and again.
-pub fn run(scene: Option<String>) -> Result<(), WindowError> {
-    let source = SceneSource::Named(scene.unwrap_or_else(first_scene));
+pub fn run(source: Option<SceneSource>) -> Result<(), WindowError> {
+    let source = source.unwrap_or_else(|| SceneSource::Named(first_scene()));
     open(Start { source, size: FILM }, Hooks::default())
 }
 

@@ -25,18 +25,26 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, pictures: &mut Pictures
     let existence = live.existence();
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 5.0;
-        ui.label(RichText::new(state.say(Text::Pyramid)).heading()).on_hover_text(state.say(Text::HelpPyramid));
+        if !state.phone {
+            ui.label(RichText::new(state.say(Text::Pyramid)).heading()).on_hover_text(state.say(Text::HelpPyramid));
+        }
         study::toolbar::choice(ui, state);
         pyramid_menus::strategies(ui, state, &existence);
         pyramid_menus::cells(ui, state);
-        let alone = state.maximised == Maximised::Pyramid;
-        let button = Button::new(state.say(Text::Maximise)).selected(alone);
-        if ui.add(button).on_hover_text(state.say(Text::HelpMaximise)).clicked() {
-            state.maximised = if alone { Maximised::None } else { Maximised::Pyramid };
+        if !state.phone {
+            let alone = state.maximised == Maximised::Pyramid;
+            let button = Button::new(state.say(Text::Maximise)).selected(alone);
+            if ui.add(button).on_hover_text(state.say(Text::HelpMaximise)).clicked() {
+                state.maximised = if alone { Maximised::None } else { Maximised::Pyramid };
+            }
         }
         study::toolbar::progress(ui, state, live);
     });
     ui.add_space(2.0);
+    if state.study.why && state.phone && ui.available_width() < 2.0 * WHY {
+        // There is no room beside it.
+        return study::why::show(ui, state, live);
+    }
     if state.study.why {
         let room = ui.available_width();
         let card = Panel::right("why").resizable(true).default_size(WHY.min(0.45 * room));

@@ -27,37 +27,42 @@ pub fn menu(ui: &mut Ui, name: &str, help: &str, add: impl FnOnce(&mut Ui)) {
 pub fn show(ui: &mut Ui, state: &mut State) {
     menu(ui, state.say(LooksText::Rendering), state.say(LooksText::HelpRendering), |ui| {
         ui.set_min_width(250.0);
-        head(ui, state, Text::FilmSize, Text::HelpFilmSize);
-        ui.horizontal_wrapped(|ui| {
-            for size in SIZES {
-                if ui.selectable_label(*size == state.size, format!("{}×{}", size[0], size[1])).clicked() {
-                    state.resize(*size);
-                }
+        contents(ui, state);
+    });
+}
+
+/// Shows what is in it.
+pub fn contents(ui: &mut Ui, state: &mut State) {
+    head(ui, state, Text::FilmSize, Text::HelpFilmSize);
+    ui.horizontal_wrapped(|ui| {
+        for size in SIZES {
+            if ui.selectable_label(*size == state.size, format!("{}×{}", size[0], size[1])).clicked() {
+                state.resize(*size);
             }
-        });
-        ui.separator();
-        head(ui, state, Text::Renderer, Text::HelpRenderer);
-        ui.horizontal(|ui| {
-            for (backend, name, help) in BACKENDS {
-                let chosen = *backend == state.backend();
-                if ui.selectable_label(chosen, state.say(*name)).on_hover_text(state.say(*help)).clicked() {
-                    state.choose_backend(*backend);
-                }
-            }
-        });
-        ui.separator();
-        let lang = state.prefs.lang;
-        ui.horizontal(|ui| {
-            labelled(ui, Text::Seed.in_language(lang), Text::HelpSeed.in_language(lang), |ui| {
-                ui.add(DragValue::new(&mut state.settings.seed).custom_parser(finite).speed(0.1))
-            });
-        });
-        ui.checkbox(&mut state.settings.roulette, Text::Roulette.in_language(lang)).on_hover_text(Text::HelpRoulette.in_language(lang));
-        ui.separator();
-        if ui.button(state.say(Text::Restart)).on_hover_text(state.say(Text::HelpRestart)).clicked() {
-            state.restart = true;
         }
     });
+    ui.separator();
+    head(ui, state, Text::Renderer, Text::HelpRenderer);
+    ui.horizontal(|ui| {
+        for (backend, name, help) in BACKENDS {
+            let chosen = *backend == state.backend();
+            if ui.selectable_label(chosen, state.say(*name)).on_hover_text(state.say(*help)).clicked() {
+                state.choose_backend(*backend);
+            }
+        }
+    });
+    ui.separator();
+    let lang = state.prefs.lang;
+    ui.horizontal(|ui| {
+        labelled(ui, Text::Seed.in_language(lang), Text::HelpSeed.in_language(lang), |ui| {
+            ui.add(DragValue::new(&mut state.settings.seed).custom_parser(finite).speed(0.1))
+        });
+    });
+    ui.checkbox(&mut state.settings.roulette, Text::Roulette.in_language(lang)).on_hover_text(Text::HelpRoulette.in_language(lang));
+    ui.separator();
+    if ui.button(state.say(Text::Restart)).on_hover_text(state.say(Text::HelpRestart)).clicked() {
+        state.restart = true;
+    }
 }
 
 fn head(ui: &mut Ui, state: &State, name: impl Words, help: impl Words) {

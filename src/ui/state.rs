@@ -8,10 +8,12 @@ pub use super::export::{ExportState, What};
 pub use super::files::{FilesState, Given, Purpose};
 pub use super::image_view::ViewState;
 pub use super::inspector::{Bars, InspectState};
+use super::link::LinkState;
 pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};
 pub use super::space::SpaceState;
 pub use super::study::StudyState;
 use super::text::{Lang, Text, Words};
+pub use super::touch::Fingers;
 pub use super::tour::Before;
 use crate::bdpt::{Existence, Settings, Strategy, StrategySet};
 use crate::engine::{Backend, Mode};
@@ -170,6 +172,16 @@ pub struct State {
     pub narrow: bool,
     /// Then, the 3-D view is shown.
     pub space_in_front: bool,
+    /// Is the window as small as a phone's? Found anew in every pass.
+    pub phone: bool,
+    /// Then, what shares the window with the image (`Image`: nothing does).
+    pub beside: Maximised,
+    /// Then, the menu has the room of the panels.
+    pub menu: bool,
+    /// Is it used with fingers?
+    pub touch: bool,
+    /// The fingers on it.
+    pub fingers: Fingers,
     /// Is the list of keys open?
     pub help: bool,
     /// The 3-D view.
@@ -192,6 +204,10 @@ pub struct State {
     pub drawn: Option<Drawn>,
     /// What there is to say.
     pub messages: Vec<Message>,
+    /// Links: to be copied, and on their way.
+    pub link: LinkState,
+    /// How much of their room the inspector, the pyramid and the 3-D view take, thousandths; `None` = as at the first start.
+    pub shares: [Option<u32>; 3],
 }
 
 impl State {
@@ -223,6 +239,11 @@ impl State {
             maximised: Maximised::None,
             narrow: false,
             space_in_front: false,
+            phone: false,
+            beside: Maximised::Inspector,
+            menu: false,
+            touch: false,
+            fingers: Fingers::default(),
             help: false,
             space: SpaceState::default(),
             edit: EditState::default(),
@@ -234,6 +255,8 @@ impl State {
             inspect: InspectState::default(),
             drawn: None,
             messages: Vec::new(),
+            link: LinkState::default(),
+            shares: [None; 3],
         }
     }
 
@@ -258,7 +281,7 @@ impl State {
     /// Shows a strategy's picture in the image view, and that in front of what would hide it.
     pub fn open_large(&mut self, strategy: Strategy, mode: Mode) {
         self.compare.a = Source::Strategy(strategy, mode);
-        (self.compare.flipped, self.space_in_front) = (false, false);
+        (self.compare.flipped, self.space_in_front, self.menu) = (false, false, false);
         if self.maximised != Maximised::Image {
             self.maximised = Maximised::None;
         }
@@ -268,8 +291,19 @@ impl State {
     pub fn image_on_show(&self) -> bool {
         match self.maximised {
             Maximised::Image => true,
+            Maximised::None if self.phone => !self.menu,
             Maximised::None => !(self.narrow && self.space_in_front),
             Maximised::Space | Maximised::Inspector | Maximised::Pyramid => false,
+        }
+    }
+
+    /// Can the pyramid be seen?
+    pub fn pyramid_on_show(&self) -> bool {
+        match self.maximised {
+            Maximised::Pyramid => true,
+            Maximised::None if self.phone => self.beside == Maximised::Pyramid,
+            Maximised::None => self.prefs.pyramid_open,
+            Maximised::Image | Maximised::Space | Maximised::Inspector => false,
         }
     }
 

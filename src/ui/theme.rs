@@ -39,6 +39,21 @@ pub fn selected_ground(visuals: &Visuals) -> Color32 {
 
 /// The layout needs as much, points.
 const LEAST_ROOM: [f32; 2] = [800.0, 560.0];
+/// A window with less, either way, is laid out as on a phone, points.
+const PHONE: [f32; 2] = [790.0, 500.0];
+/// The least size of what a finger or a mouse hits, points.
+const TARGETS: [f32; 2] = [40.0, 24.0];
+
+/// Is the window as small as a phone's?
+pub fn is_small(ctx: &egui::Context) -> bool {
+    let room = ctx.content_rect().size();
+    room.x < PHONE[0] || room.y < PHONE[1]
+}
+
+/// Is what can be clicked as large as a finger needs it?
+pub fn for_fingers(style: &Style) -> bool {
+    style.spacing.interact_size.y >= TARGETS[0]
+}
 
 /// Gives the context both themes; done once.
 pub fn install(ctx: &egui::Context) {
@@ -47,8 +62,8 @@ pub fn install(ctx: &egui::Context) {
     dress(ctx, false);
 }
 
-/// Makes the context look as the preferences say.
-pub fn choose(ctx: &egui::Context, prefs: &Preferences) {
+/// Makes the context look as the preferences say; `fingers`: large enough for them.
+pub fn choose(ctx: &egui::Context, prefs: &Preferences, fingers: bool) {
     let theme = if prefs.dark { Theme::Dark } else { Theme::Light };
     if ctx.theme() != theme {
         ctx.set_theme(theme);
@@ -57,6 +72,9 @@ pub fn choose(ctx: &egui::Context, prefs: &Preferences) {
     let contrast = style.visuals.widgets.inactive.bg_stroke.width > 0.0;
     if contrast != prefs.contrast {
         dress(ctx, prefs.contrast);
+    }
+    if for_fingers(&style) != fingers {
+        ctx.all_styles_mut(|style| targets(style, fingers));
     }
     let time = if prefs.reduced_motion { 0.0 } else { 1.0 / 12.0 };
     if style.animation_time != time {
@@ -107,17 +125,27 @@ fn type_and_spacing(style: &mut Style) {
         (TextStyle::Monospace, 12.5, FontFamily::Monospace),
     ];
     style.text_styles = sizes.into_iter().map(|(name, size, family)| (name, FontId::new(size, family))).collect();
+    targets(style, false);
     style.spacing.item_spacing = vec2(8.0, 5.0);
-    style.spacing.button_padding = vec2(8.0, 3.0);
-    style.spacing.interact_size.y = 24.0;
     style.spacing.window_margin = Margin::same(12);
     style.spacing.tooltip_width = 380.0;
     // Menus are as tall as what is in them, while there is room.
     style.spacing.default_area_size.y = 760.0;
     style.spacing.scroll.floating = false;
-    style.spacing.scroll.bar_width = 8.0;
     style.interaction.selectable_labels = false;
     style.interaction.tooltip_delay = 0.35;
+}
+
+/// How large things are that are clicked or tapped.
+fn targets(style: &mut Style, fingers: bool) {
+    let pick = |finger: f32, mouse: f32| if fingers { finger } else { mouse };
+    style.spacing.interact_size = vec2(40.0, pick(TARGETS[0], TARGETS[1]));
+    style.spacing.button_padding = vec2(8.0, pick(8.0, 3.0));
+    style.spacing.icon_width = pick(22.0, 14.0);
+    style.spacing.icon_width_inner = pick(12.0, 8.0);
+    style.spacing.scroll.bar_width = pick(10.0, 8.0);
+    style.interaction.resize_grab_radius_side = pick(12.0, 3.0);
+    style.interaction.interact_radius = pick(8.0, 5.0);
 }
 
 fn dark() -> Visuals {

@@ -2,6 +2,7 @@
 
 use super::export;
 use super::keys::{self, Action};
+use super::link;
 use super::live::Live;
 use super::state::State;
 use super::text::{Lang, Text};
@@ -24,18 +25,28 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     ui.horizontal_wrapped(|ui| {
         scene_menu::show(ui, state, live);
         ui.separator();
-        integrator(ui, state, live);
-        heuristic(ui, state);
-        numbers(ui, state);
+        estimator(ui, state, live);
         render_menu::show(ui, state);
         ui.separator();
-        let pause = state.say(if state.paused { Text::Resume } else { Text::Pause });
-        if ui.button(pause).on_hover_text(keys::hint(state, Text::KeyPause, Action::Pause)).clicked() {
-            state.paused = !state.paused;
-        }
+        pause(ui, state);
         export::show(ui, state, live);
         at_the_right(ui, |ui| window_switches(ui, state));
     });
+}
+
+/// Which strategies take part, how they share a path, and how long one may be.
+pub fn estimator(ui: &mut Ui, state: &mut State, live: &Live) {
+    integrator(ui, state, live);
+    heuristic(ui, state);
+    numbers(ui, state);
+}
+
+/// Stops the rendering, or lets it go on.
+pub fn pause(ui: &mut Ui, state: &mut State) {
+    let name = state.say(if state.paused { Text::Resume } else { Text::Pause });
+    if ui.button(name).on_hover_text(keys::hint(state, Text::KeyPause, Action::Pause)).clicked() {
+        state.paused = !state.paused;
+    }
 }
 
 /// Puts what is added last into the row's right end, or into a row of its own where it does not fit any more.
@@ -64,6 +75,7 @@ fn window_switches(ui: &mut Ui, state: &mut State) {
     let label = state.say(Text::Pyramid);
     ui.toggle_value(&mut state.prefs.pyramid_open, label).on_hover_text(help);
     ui.separator();
+    link::button(ui, state);
     let (name, other) = match state.prefs.lang {
         Lang::En => ("中文", Lang::Zh),
         Lang::Zh => ("English", Lang::En),

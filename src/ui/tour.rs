@@ -2,7 +2,7 @@
 //! done by doing it, wherever in the window.
 
 use super::state::{Maximised, Selection, State, Tab};
-use super::text::{TourText, fill};
+use super::text::{PhoneText, TourText, fill};
 use crate::bdpt::StrategySet;
 use eframe::egui::{Align, Label, Layout, RichText, Ui};
 
@@ -25,7 +25,7 @@ impl Before {
 
 /// Is there a step left to show?
 pub fn is_open(state: &State) -> bool {
-    state.prefs.tour < STEPS.len() && state.maximised == Maximised::None
+    state.prefs.tour < STEPS.len() && state.maximised == Maximised::None && !(state.phone && state.menu)
 }
 
 /// Shows the step, and goes on to the next one when it is done.
@@ -56,11 +56,27 @@ pub fn show(ui: &mut Ui, state: &mut State) {
             if ui.button(state.say(TourText::Later)).clicked() {
                 go_to(state, step);
             }
-            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                ui.add(Label::new(RichText::new(state.say(text)).strong()).truncate()).on_hover_text(state.say(text));
-            });
+            if !state.phone {
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                    ui.add(Label::new(RichText::new(state.say(text)).strong()).truncate()).on_hover_text(state.say(text));
+                });
+            }
         });
     });
+    if state.phone {
+        ui.add(Label::new(RichText::new(state.say(for_fingers(text))).strong()).wrap());
+    }
+}
+
+/// The same step where there is no keyboard.
+fn for_fingers(text: TourText) -> PhoneText {
+    match text {
+        TourText::Pixel => PhoneText::TourPixel,
+        TourText::Sample => PhoneText::TourSample,
+        TourText::Strategy => PhoneText::TourStrategy,
+        TourText::Hide => PhoneText::TourHide,
+        _ => PhoneText::TourSplits,
+    }
 }
 
 fn go_to(state: &mut State, step: usize) {

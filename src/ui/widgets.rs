@@ -113,6 +113,8 @@ pub enum Icon {
 pub struct IconToggle<'a> {
     /// Where it is.
     pub rect: Rect,
+    /// Where a click or a tap hits it.
+    pub target: Rect,
     /// Its id.
     pub id: egui::Id,
     /// Its picture.
@@ -127,8 +129,8 @@ pub struct IconToggle<'a> {
 
 /// Shows an icon toggle.
 pub fn icon_toggle(ui: &Ui, toggle: IconToggle<'_>) -> Response {
-    let IconToggle { rect, id, icon, on, enabled, name } = toggle;
-    let response = ui.interact(rect, id, if enabled { Sense::click() } else { Sense::hover() });
+    let IconToggle { rect, target, id, icon, on, enabled, name } = toggle;
+    let response = ui.interact(target, id, if enabled { Sense::click() } else { Sense::hover() });
     response.widget_info(|| WidgetInfo::selected(Role::CheckBox, enabled, !on, name));
     let mut painter = ui.painter().clone();
     if !enabled {

@@ -3,15 +3,17 @@
 //! ```text
 //! with Alt, or in the mode "Move camera":   left drag orbits · Shift + left or middle drag pans · wheel dollies
 //! Alt + right drag pans; right drag in the mode looks around, and W A S D Q E fly
+//! fingers, in the mode:                     one orbits · two pan and dolly
 //! ```
 //!
 //! What is under the pointer when a drag begins is what the camera turns about; a pan moves it along with the pointer.
 
-use crate::math::{DVec3, Vec2};
+use crate::math::{DVec3, Vec2 as Raster};
 use crate::scene::{Pose, Ray, View};
 use crate::ui::live::Live;
 use crate::ui::state::State;
-use eframe::egui::{Key, PointerButton, Pos2, Rect, Response, Ui};
+use crate::ui::touch::{self, Pinch};
+use eframe::egui::{Key, PointerButton, Pos2, Rect, Response, Ui, Vec2};
 
 /// Radians per point.
 const TURN: f64 = 0.006;
@@ -54,6 +56,16 @@ pub fn steer(ui: &Ui, state: &mut State, live: &Live, response: &Response, image
         state.edit.grip = None;
     }
     let Some((pose, pixel)) = now(state, live, image) else { return false };
+    if let Some(pinch) = touch::pinch(ui, response).filter(|_| state.edit.moving) {
+        state.edit.grip = None;
+        let centre = under(state, live, image, pinch.about);
+        set(state, live, pinched(&pose, pinch, centre, pixel));
+        return true;
+    }
+    if state.fingers.several() && state.edit.moving {
+        state.edit.grip = None;
+        return true;
+    }
     let moved = match state.edit.grip {
         Some(grip) => drag(ui, &pose, grip, (response, pixel), live),
         None if alt || state.edit.moving => match wheel(ui, response) {
@@ -98,11 +110,7 @@ fn drag(ui: &Ui, pose: &Pose, grip: Grip, (response, pixel): (&Response, f64), l
     let [dx, dy] = [delta.x, delta.y].map(f64::from);
     match grip.gesture {
         Gesture::Orbit => pose.orbit(grip.pivot, -dx * TURN, -dy * TURN),
-        Gesture::Pan => {
-            let axis = DVec3::from(pose.axis.map(f64::from));
-            let scale = pixel * (grip.pivot - DVec3::from(pose.position)).dot(axis).abs();
-            pose.shifted(-dx * scale, dy * scale, 0.0)
-        }
+        Gesture::Pan => panned(pose, delta, grip.pivot, pixel),
         Gesture::Fly => {
             let radius = live.scene().map_or(1.0, |scene| f64::from(scene.sphere.radius));
             let (step, [right, up, along]) = ui.input(|input| {
@@ -120,6 +128,18 @@ fn drag(ui: &Ui, pose: &Pose, grip: Grip, (response, pixel): (&Response, f64), l
             pose.look_around(-dx * TURN * 0.5, -dy * TURN * 0.5).shifted(right * step, up * step, along * step)
         }
     }
+}
+
+/// The camera moved along with what is at `pivot`.
+fn panned(pose: &Pose, delta: Vec2, pivot: DVec3, pixel: f64) -> Pose {
+    let axis = DVec3::from(pose.axis.map(f64::from));
+    let scale = pixel * (pivot - DVec3::from(pose.position)).dot(axis).abs();
+    pose.shifted(-f64::from(delta.x) * scale, f64::from(delta.y) * scale, 0.0)
+}
+
+/// The camera as two fingers move it: what is between them stays there.
+fn pinched(pose: &Pose, pinch: Pinch, centre: DVec3, pixel: f64) -> Pose {
+    panned(&pose.dollied(centre, f64::from(pinch.zoom.max(1e-3)).ln()), pinch.pan, centre, pixel)
 }
 
 /// How far the wheel turned over the image, and where the pointer is.
@@ -141,10 +161,10 @@ fn under(state: &State, live: &Live, image: Rect, at: Pos2) -> DVec3 {
     let (Some(scene), Some(camera)) = (live.scene(), live.camera(state)) else { return DVec3::ZERO };
     let view = View::new(scene, &camera, state.size);
     let place = (at - image.min) / image.size();
-    let raster = Vec2::new(place.x * state.size[0] as f32, place.y * state.size[1] as f32);
-    let selected = Vec2::from(state.selection.pixel.map(|v| v as f32 + 0.5));
-    let ray = |raster: Vec2| Ray { origin: view.position, direction: view.direction(raster, view.position) };
-    let depth = |raster: Vec2| scene.depth_along(&ray(raster), view.axis).map(f64::from);
+    let raster = Raster::new(place.x * state.size[0] as f32, place.y * state.size[1] as f32);
+    let selected = Raster::from(state.selection.pixel.map(|v| v as f32 + 0.5));
+    let ray = |raster: Raster| Ray { origin: view.position, direction: view.direction(raster, view.position) };
+    let depth = |raster: Raster| scene.depth_along(&ray(raster), view.axis).map(f64::from);
     let to_centre = f64::from(-view.position.dot(view.axis));
     let away = if to_centre > 0.0 { to_centre } else { f64::from(scene.sphere.radius) };
     let depth = depth(raster).or_else(|| depth(selected)).unwrap_or(away);

@@ -32,9 +32,9 @@ pub struct EditState {
     /// What holds the camera now.
     pub(in crate::ui) grip: Option<Grip>,
     /// Name of the bookmark to be made.
-    bookmark_name: String,
+    pub(in crate::ui) bookmark_name: String,
     /// The bookmark being renamed, and its new name.
-    renaming: Option<(usize, String)>,
+    pub(in crate::ui) renaming: Option<(usize, String)>,
 }
 
 impl EditState {

@@ -77,12 +77,14 @@ pub struct ExportState {
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     // A click into the path's field must not close the menu.
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    let (button, _) = MenuButton::from_button(Button::new(state.say(ExportText::Save))).config(config).ui(ui, |ui| menu(ui, state, live));
+    let (button, _) =
+        MenuButton::from_button(Button::new(state.say(ExportText::Save))).config(config).ui(ui, |ui| contents(ui, state, live));
     button.on_hover_text(state.say(ExportText::HelpSave));
 }
 
-fn menu(ui: &mut Ui, state: &mut State, live: &Live) {
-    ui.set_width(WIDTH);
+/// Shows what is in the menu.
+pub fn contents(ui: &mut Ui, state: &mut State, live: &Live) {
+    ui.set_width(WIDTH.min(ui.available_width()));
     // Only what is chosen looks chosen; what does something looks like a button.
     ui.visuals_mut().button_frame = true;
     for (what, name, help, _) in KINDS {

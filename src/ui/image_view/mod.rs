@@ -23,8 +23,8 @@ use super::text::{Text, ViewText, fill};
 use super::theme;
 use super::widgets::surround;
 use eframe::egui::{
-    self, Align2, Color32, CornerRadius, FontId, Label, Painter, Pos2, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui,
-    WidgetInfo, pos2, vec2,
+    self, Align2, Color32, CornerRadius, FontId, Label, Painter, Pos2, Rect, Response, RichText, Role, ScrollArea, Sense, Stroke,
+    StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
 /// What a person chose about the view itself.
@@ -64,13 +64,12 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, desk: &mut Desk) -> Rec
             readout::show(ui, state, live, &replayed);
         }
     });
-    if state.compare.open {
-        let pair = Pair::find(state, live);
-        let print = (pair.display == Display::Difference).then(|| darkroom.difference(state, &pair)).flatten();
-        compare::show(ui, state, live, print.and_then(|print| print.figures));
-    }
-    if state.prefs.camera_open {
-        camera_bar::show(ui, state, live);
+    if state.phone {
+        // The image keeps most of the room, whatever is open.
+        let most = 0.3 * ui.available_height();
+        ScrollArea::vertical().id_salt("open rows").max_height(most).show(ui, |ui| open_rows(ui, state, live, darkroom));
+    } else {
+        open_rows(ui, state, live, darkroom);
     }
     if !narrow {
         ui.horizontal_wrapped(|ui| readout::show(ui, state, live, &replayed));
@@ -108,6 +107,18 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, desk: &mut Desk) -> Rec
         painter.rect_stroke(panel, CornerRadius::ZERO, Stroke::new(2.0, theme::SELECTED), StrokeKind::Inside);
     }
     image
+}
+
+/// The rows of the comparison and of the camera, while they are open.
+fn open_rows(ui: &mut Ui, state: &mut State, live: &Live, darkroom: &mut Darkroom) {
+    if state.compare.open {
+        let pair = Pair::find(state, live);
+        let print = (pair.display == Display::Difference).then(|| darkroom.difference(state, &pair)).flatten();
+        compare::show(ui, state, live, print.and_then(|print| print.figures));
+    }
+    if state.prefs.camera_open {
+        camera_bar::show(ui, state, live);
+    }
 }
 
 /// Draws what is on show. Returns how many of its pixels hold no number.
@@ -191,7 +202,8 @@ fn lost_paths(ui: &mut Ui, state: &State, live: &Live) {
     ui.horizontal(|ui| {
         let colour = ui.visuals().warn_fg_color;
         ui.label(RichText::new("⚠").color(colour)).on_hover_text(help.as_str());
-        ui.add(Label::new(RichText::new(words).color(colour)).truncate()).on_hover_text(help.as_str());
+        let words = Label::new(RichText::new(words).color(colour));
+        ui.add(if state.phone { words.wrap() } else { words.truncate() }).on_hover_text(help.as_str());
     });
 }
 

@@ -1,9 +1,10 @@
-//! Zoom around the cursor, pan, and the click that picks a pixel.
+//! Zoom around the cursor or between two fingers, pan, and the click or tap that picks a pixel.
 
 use super::super::edit;
 use super::super::live::Live;
 use super::super::mark_pick;
 use super::super::state::{Placement, State};
+use super::super::touch::{self, Click};
 use eframe::egui::{Rect, Response, Ui, Vec2, vec2};
 
 /// Zoom, pan and pick; where the film ends up.
@@ -20,11 +21,18 @@ pub fn show(ui: &Ui, state: &mut State, live: &Live, response: &Response, panel:
     // The camera's hand comes first: what it takes does not move the picture.
     let image = Rect::from_min_size(panel.center() - centre * zoom, size * zoom);
     let steered = edit::hand::steer(ui, state, live, response, image);
-    if response.dragged() && !steered {
+    let pinch = touch::pinch(ui, response).filter(|_| !steered);
+    if let Some(pinch) = pinch {
+        let under = centre + (pinch.about - pinch.pan - panel.center()) / zoom;
+        zoom = (zoom * pinch.zoom).clamp(0.05, 200.0);
+        centre = under - (pinch.about - panel.center()) / zoom;
+        moved = true;
+    } else if response.dragged() && !steered && !state.fingers.several() {
         centre -= response.drag_delta() / zoom;
         moved |= response.drag_delta() != Vec2::ZERO;
     }
-    if let Some(cursor) = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer() && !steered) {
+    if let Some(cursor) = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer() && !steered && pinch.is_none())
+    {
         let factor = ui.input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y * 0.004).exp());
         if factor != 1.0 {
             let under = centre + (cursor - panel.center()) / zoom;
@@ -39,8 +47,8 @@ pub fn show(ui: &Ui, state: &mut State, live: &Live, response: &Response, panel:
         state.placement = Placement::Free { zoom, centre };
     }
     let image = Rect::from_min_size(panel.center() - centre * zoom, size * zoom);
-    if let Some(cursor) = response.interact_pointer_pos().filter(|_| response.clicked()) {
-        if !state.picking_focus && mark_pick::click(ui, state, live, [image, panel], cursor) {
+    if let (Some(cursor), Some(click)) = (response.interact_pointer_pos(), touch::click(ui, state, response)) {
+        if !state.picking_focus && click == Click::Plain && mark_pick::click(state, live, [image, panel], cursor) {
             return image;
         }
         let at = (cursor - image.min) / zoom;

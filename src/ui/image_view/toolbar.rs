@@ -10,7 +10,7 @@ use super::super::widgets::{finite, keep_together, labelled};
 use crate::engine::Mode;
 use crate::film::tonemap::{ToneMap, fitting_exposure};
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
-use eframe::egui::{Button, ComboBox, DragValue, PopupCloseBehavior, Role, Ui, WidgetInfo};
+use eframe::egui::{Button, ComboBox, DragValue, PopupCloseBehavior, Role, ScrollArea, Ui, WidgetInfo};
 
 /// The tone maps' names, and what they do.
 const TONE_MAPS: [(ToneMap, ViewText); 4] = [
@@ -36,8 +36,10 @@ pub const WIDE: f32 = 900.0;
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     let wide = ui.available_width() >= WIDE;
     source(ui, state, live, wide);
-    keep_together(ui, 130.0);
-    exposure(ui, state);
+    if !state.phone {
+        keep_together(ui, 130.0);
+        exposure(ui, state);
+    }
     if wide {
         auto(ui, state, live);
         open_large(ui, state, live);
@@ -46,24 +48,39 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
         show_menu(ui, state);
         return;
     }
-    compare_button(ui, state);
-    camera_button(ui, state);
+    if !state.phone {
+        compare_button(ui, state);
+        camera_button(ui, state);
+    }
     // A click on a field must not close the menu.
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     let menu = MenuButton::new(state.say(ViewText::More)).config(config);
     let (response, _) = menu.ui(ui, |ui| {
         ui.set_min_width(270.0);
-        ui.horizontal(|ui| {
-            auto(ui, state, live);
-            open_large(ui, state, live);
-        });
-        ui.horizontal(|ui| tone(ui, state));
-        ui.horizontal(|ui| offset(ui, state));
-        ui.horizontal(|ui| places(ui, state));
-        ui.separator();
-        shown(ui, state);
+        let most = ui.ctx().content_rect().height() - 110.0;
+        ScrollArea::vertical().max_height(most).show(ui, |ui| more(ui, state, live));
     });
     response.on_hover_text(state.say(ViewText::HelpMore));
+}
+
+/// What a narrow view keeps in a menu.
+fn more(ui: &mut Ui, state: &mut State, live: &Live) {
+    if state.phone {
+        ui.horizontal(|ui| exposure(ui, state));
+        ui.horizontal(|ui| {
+            compare_button(ui, state);
+            camera_button(ui, state);
+        });
+    }
+    ui.horizontal(|ui| {
+        auto(ui, state, live);
+        open_large(ui, state, live);
+    });
+    ui.horizontal(|ui| tone(ui, state));
+    ui.horizontal(|ui| offset(ui, state));
+    ui.horizontal(|ui| places(ui, state));
+    ui.separator();
+    shown(ui, state);
 }
 
 /// What a wide view has room for beside the picture's choice and the exposure.
@@ -86,6 +103,9 @@ fn places(ui: &mut Ui, state: &mut State) {
     let hint = keys::hint(state, Text::KeyOneToOne, Action::OneToOne);
     if ui.button(state.say(ViewText::OneToOne)).on_hover_text(hint).clicked() {
         state.view.one_to_one = true;
+    }
+    if state.phone {
+        return;
     }
     let alone = state.maximised == Maximised::Image;
     let button = Button::new(state.say(Text::Maximise)).selected(alone);

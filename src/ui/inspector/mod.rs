@@ -42,14 +42,27 @@ pub struct InspectState {
 /// Shows the inspector.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     tabs(ui, state);
+    if state.phone {
+        // What stays in sight elsewhere has no room to.
+        let scroll = ScrollArea::vertical().id_salt(("inspector", state.prefs.tab)).auto_shrink(false);
+        return drop(scroll.show(ui, |ui| {
+            heads(ui, state, live);
+            page(ui, state, live);
+        }));
+    }
+    heads(ui, state, live);
+    ui.separator();
+    ScrollArea::vertical().id_salt(("inspector", state.prefs.tab)).auto_shrink(false).show(ui, |ui| page(ui, state, live));
+}
+
+/// What is above the page: whose numbers these are, and which walk is listed.
+fn heads(ui: &mut Ui, state: &mut State, live: &Live) {
     if !matches!(state.prefs.tab, Tab::Scene | Tab::Checks) {
         header(ui, state, live);
     }
     if let (Tab::Path, Some(record)) = (state.prefs.tab, live.record(state).cloned()) {
         path::head(ui, state, &record);
     }
-    ui.separator();
-    ScrollArea::vertical().id_salt(("inspector", state.prefs.tab)).auto_shrink(false).show(ui, |ui| page(ui, state, live));
 }
 
 fn page(ui: &mut Ui, state: &mut State, live: &Live) {
@@ -75,6 +88,9 @@ fn page(ui: &mut Ui, state: &mut State, live: &Live) {
 fn tabs(ui: &mut Ui, state: &mut State) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
+        if state.phone {
+            (ui.spacing_mut().item_spacing.x, ui.spacing_mut().button_padding.x) = (2.0, 5.0);
+        }
         for (tab, name, help) in [
             (Tab::Strategies, state.say(Text::TabStrategies), state.say(Text::HelpTabStrategies)),
             (Tab::Pixel, state.say(InspectText::TabPixel), state.say(InspectText::HelpTabPixel)),

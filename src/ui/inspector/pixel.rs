@@ -39,7 +39,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
 }
 
 fn row(ui: &mut Ui, state: &mut State, (strategy, mean): (Strategy, Vec3), share: f64) {
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW.max(ui.spacing().interact_size.y)), Sense::click());
     let chosen = strategy == state.selection.strategy;
     let name = full_name(strategy, state.prefs.lang);
     let spoken = format!("{name}: {}", format::percent(share));

@@ -179,7 +179,8 @@ fn show_row(ui: &mut Ui, state: &mut State, row: &Row<'_>, scale: &Scale) {
     let split = row.split;
     let strategy = Strategy::new(split.s, split.t);
     let lines = if split.samplable && row.other.is_some() { 3.0 } else { 2.0 };
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), lines * LINE + 6.0), Sense::click());
+    let (rect, response) =
+        ui.allocate_exact_size(vec2(ui.available_width(), (lines * LINE + 6.0).max(ui.spacing().interact_size.y)), Sense::click());
     let chosen = strategy == state.selection.strategy;
     let name = format!("{}: {}", full_name(strategy, state.prefs.lang), format::weight(split.weight));
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &name));

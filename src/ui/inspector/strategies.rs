@@ -10,6 +10,8 @@ use crate::ui::{format, pictures, theme};
 use eframe::egui::{self, Color32, CornerRadius, FontId, Painter, Rect, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 const ROW: f32 = 24.0;
+/// A row narrower than this has no room for the bars of the weights, points.
+const NARROW: f32 = 400.0;
 /// Width of "(1,2)" with the gap before it, points.
 const PAIR: f32 = 38.0;
 
@@ -25,6 +27,15 @@ impl Columns {
     fn of(row: Rect) -> Self {
         let x = |fraction: f32| row.left() + 8.0 + (row.width() - 16.0) * fraction;
         let column = |from: f32, to: f32| Rect::from_min_max(pos2(x(from), row.top()), pos2(x(to) - 6.0, row.bottom()));
+        if row.width() < NARROW {
+            // Names before bars.
+            return Self {
+                role: column(0.0, 0.52),
+                weight: column(0.52, 0.67),
+                contribution: column(0.67, 0.86),
+                raster: column(0.86, 1.03),
+            };
+        }
         Self { role: column(0.0, 0.39), weight: column(0.39, 0.59), contribution: column(0.59, 0.83), raster: column(0.83, 1.02) }
     }
 }
@@ -82,7 +93,7 @@ fn heads(ui: &mut Ui, state: &State) {
 
 fn row(ui: &mut Ui, state: &mut State, existence: &Existence, (index, record): (usize, &StrategyRecord)) {
     let strategy = record.strategy();
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW.max(ui.spacing().interact_size.y)), Sense::click());
     let chosen = strategy == state.selection.strategy;
     let why = short(state, existence, record);
     let spoken = spoken(state, record, why);
@@ -162,8 +173,13 @@ fn paint(ui: &Ui, state: &State, (index, record, why): (usize, &StrategyRecord, 
     let middle = columns.weight.center().y;
     let number = 46.0;
     let gauge = Rect::from_min_max(pos2(columns.weight.left(), middle - 4.0), pos2(columns.weight.right() - number, middle + 4.0));
-    bar(painter, visuals, gauge, record.mis_weight, theme::bar(visuals));
-    numbers.cell(ui, columns.weight.with_min_x(gauge.right() + 6.0), &format::weight(weight), &place("mis_weight"));
+    let weights = if gauge.width() > 8.0 {
+        bar(painter, visuals, gauge, record.mis_weight, theme::bar(visuals));
+        columns.weight.with_min_x(gauge.right() + 6.0)
+    } else {
+        columns.weight
+    };
+    numbers.cell(ui, weights, &format::weight(weight), &place("mis_weight"));
     let square = Rect::from_center_size(pos2(columns.contribution.left() + 7.0, middle), vec2(13.0, 13.0));
     swatch(painter, visuals, square, pictures::hue(record.contribution));
     let luminance = format::short(f64::from(format::luminance(record.contribution)));

@@ -3,6 +3,7 @@
 use super::super::edit::recent;
 use super::super::edit::reload::{self, Reload};
 use super::super::files;
+use super::super::link;
 use super::super::loader::Failure;
 use super::super::state::{Opening, State};
 use super::super::text::{EditText, Text, fill};
@@ -67,6 +68,7 @@ impl Live {
                     }
                 } else {
                     state.edit.forget();
+                    state.space.arrival = None;
                     state.choose_camera(0);
                     // A scene that was never seen is not paused before its first pass.
                     state.paused = false;
@@ -79,8 +81,15 @@ impl Live {
                 }
                 self.reload = reading;
                 self.shown = Some(Shown::new(Arc::new(scene), opening));
+                link::loaded(state, self);
             }
             Err(failure) => {
+                if let Failure::Refused(error) = &failure
+                    && let Some(plain) = link::refused(state, &opening, error)
+                {
+                    self.load(plain);
+                    return true;
+                }
                 let error = match failure {
                     Failure::Refused(error) => error.to_string(),
                     Failure::Died => fill(state.say(Text::LoaderDied), &[&opening.scene]),

@@ -53,6 +53,15 @@ pub struct Orbit {
     pub yfov: f32,
 }
 
+/// Where a link wants the view to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arrival {
+    /// Its camera; `None` = where a scene that is shown first is seen best.
+    pub orbit: Option<Orbit>,
+    /// Look through the rendered camera?
+    pub through: bool,
+}
+
 /// As far as it looks up and down, radians.
 const STEEPEST: f32 = 1.55;
 /// How far a default view stands aside from the camera it shows, and above it, radians.
@@ -71,6 +80,19 @@ impl Orbit {
         orbit.turn_towards(axis);
         orbit.turn(ASIDE[0], ASIDE[1]);
         orbit
+    }
+
+    /// The same, not farther from a scene of this radius than a hand can move it; `None` if that is nowhere.
+    pub fn kept_within(self, radius: f32) -> Option<Self> {
+        let Self { pivot, distance, yaw, pitch, yfov } = self;
+        if !(pivot.is_finite() && [distance, yaw, pitch, yfov].iter().all(|number| number.is_finite())) {
+            return None;
+        }
+        // f32 has no room for the square of a far pivot's length.
+        let far = pivot.as_dvec3().length() / f64::from(50.0 * radius);
+        let pivot = if far > 1.0 { (pivot.as_dvec3() / far).as_vec3() } else { pivot };
+        let distance = distance.clamp(1e-5 * radius, 100.0 * radius);
+        Some(Self { pivot, distance, yaw, pitch: pitch.clamp(-STEEPEST, STEEPEST), yfov: yfov.clamp(1e-3, 3.1) })
     }
 
     /// The same look as a pose, about a point this far ahead; it may tilt the horizon back.

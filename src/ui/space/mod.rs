@@ -12,7 +12,7 @@ mod surfaces;
 mod tests;
 mod toolbar;
 
-pub use camera::{Orbit, Pose};
+pub use camera::{Arrival, Orbit, Pose};
 pub use navigate::step;
 pub use samples::{SampleFilter, Which};
 
@@ -76,9 +76,13 @@ pub struct SpaceState {
     /// Where it looks from, as it is shown.
     pub pose: Pose,
     /// What the camera was placed for: scene, and the scene inside its file.
-    placed: Option<(String, Option<String>)>,
+    pub(in crate::ui) placed: Option<(String, Option<String>)>,
+    /// Where it was placed then.
+    pub(in crate::ui) home: Option<Orbit>,
+    /// Where a link places it in the next pass.
+    pub(in crate::ui) arrival: Option<Arrival>,
     /// The selection it followed last.
-    followed: Option<Selection>,
+    pub(in crate::ui) followed: Option<Selection>,
 }
 
 impl Default for SpaceState {
@@ -96,6 +100,8 @@ impl Default for SpaceState {
             attention: Attention::default(),
             pose: orbit.pose(),
             placed: None,
+            home: None,
+            arrival: None,
             followed: None,
         }
     }

@@ -1,4 +1,4 @@
-//! How the 3-D view is moved: by mouse, by keys, and by itself where it is to show something.
+//! How the 3-D view is moved: by mouse, by fingers, by keys, and by itself where it is to show something.
 
 use super::sight::{Answers, Sight};
 use super::{Framing, Orbit, Pose, path_points, pose, projector};
@@ -8,6 +8,7 @@ use crate::ui::keys::{self, Action};
 use crate::ui::live::Live;
 use crate::ui::projection::Projector;
 use crate::ui::state::State;
+use crate::ui::touch;
 use eframe::egui::{PointerButton, Pos2, Rect, Response, Ui, vec2};
 
 /// Radians per point of a drag: about the pivot, and about the eye.
@@ -22,10 +23,14 @@ const CLOSE: f32 = 0.5;
 /// Puts the camera where a scene that was not shown before is seen best.
 pub fn place(state: &mut State, live: &Live, job: &Job, panel: Rect) {
     let wanted = live.opened().map(|opening| (opening.scene.clone(), opening.inside.clone()));
-    if state.space.placed != wanted {
+    let arrival = state.space.arrival.take();
+    if state.space.placed != wanted || arrival.is_some() {
         state.space.placed = wanted;
-        state.space.through = false;
         all(state, job, panel);
+    }
+    if let Some(arrival) = arrival {
+        state.space.orbit = arrival.orbit.unwrap_or(state.space.orbit);
+        (state.space.through, state.space.followed) = (arrival.through, Some(state.selection));
     }
 }
 
@@ -41,6 +46,7 @@ fn all(state: &mut State, job: &Job, panel: Rect) {
     }
     let nearest = 1e-3 * job.scene.sphere.radius;
     state.space.orbit.frame(&points, half_extent(&state.space.orbit, panel), nearest);
+    state.space.home = Some(state.space.orbit);
 }
 
 /// Half the picture on the plane at distance 1.
@@ -142,13 +148,19 @@ fn under(state: &State, job: &Job, seen: Projector, at: Pos2) -> Vec3 {
 }
 
 fn wish(ui: &Ui, state: &mut State, response: &Response) -> Wish {
-    let drag = |button| if response.dragged_by(button) { response.drag_delta() } else { vec2(0.0, 0.0) };
+    let pinch = touch::pinch(ui, response);
+    let one = !state.fingers.several();
+    let drag = |button| if one && response.dragged_by(button) { response.drag_delta() } else { vec2(0.0, 0.0) };
     let shift = ui.input(|input| input.modifiers.shift);
     let (left, middle, right) = (drag(PointerButton::Primary), drag(PointerButton::Middle), drag(PointerButton::Secondary));
     let (turn, pan) = if shift { (vec2(0.0, 0.0), left + middle) } else { (left, middle) };
     let [yaw, pitch, nearer] = std::mem::take(&mut state.space.steps);
     let pointer = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer());
     let wheel = pointer.map_or(1.0, |_| ui.input(|input| (input.smooth_scroll_delta().y * -0.004).exp() / input.zoom_delta()));
+    let (pan, wheel, pointer) = match pinch {
+        Some(pinch) => (pinch.pan, 1.0 / pinch.zoom.max(1e-3), Some(pinch.about)),
+        None => (pan, wheel, pointer),
+    };
     let mut fly = Vec3::ZERO;
     if state.space.attention.flying {
         let (along, time) = (keys::flight(ui.ctx()), ui.input(|input| input.stable_dt.min(0.1)));

@@ -15,6 +15,7 @@ use crate::ui::places::{self, Place};
 use crate::ui::projection::Projection;
 use crate::ui::state::State;
 use crate::ui::text::{SpaceText, Text, fill, light_kind};
+use crate::ui::touch::{self, Click};
 use crate::ui::widgets::full_name;
 use eframe::egui::{Color32, CursorIcon, Painter, Pos2, Response, Ui};
 
@@ -50,11 +51,12 @@ struct Found {
 /// Shows what the pointer is on, and selects it when clicked.
 pub fn obey(ui: &Ui, painter: &Painter, state: &mut State, live: &Live, (sight, samples, response): (&Sight, &Samples, &Response)) {
     let pointer = ui.input(|input| input.pointer.hover_pos()).filter(|at| response.contains_pointer() && sight.clip().contains(*at));
-    let Some(at) = response.interact_pointer_pos().filter(|_| response.clicked()).or(pointer) else { return };
-    if response.dragged() {
+    let click = touch::click(ui, state, response);
+    let Some(at) = response.interact_pointer_pos().filter(|_| click.is_some()).or(pointer) else { return };
+    if response.dragged() || state.fingers.several() {
         return;
     }
-    if response.clicked() && ui.input(|input| input.modifiers.command || input.modifiers.ctrl) {
+    if click == Some(Click::Other) {
         if let Some([x, y]) = sight.surface_at(at).and_then(|p| pixel_of(sight, p)) {
             state.select_pixel(i64::from(x), i64::from(y));
         }
@@ -68,7 +70,7 @@ pub fn obey(ui: &Ui, painter: &Painter, state: &mut State, live: &Live, (sight, 
         marks::solid(painter, line, Color32::WHITE, 1.5);
     }
     response.clone().on_hover_text_at_pointer(words(state, &record, found.target));
-    if response.clicked() || response.double_clicked() {
+    if click.is_some() || response.double_clicked() {
         select(state, &record, found.target);
     }
     if response.double_clicked() {
@@ -95,7 +97,9 @@ fn nearest([a, b]: [Pos2; 2], at: Pos2) -> Pos2 {
 /// The nearest vertex within reach; without one, the nearest edge; without one, the nearest line of another sample.
 fn find(state: &State, record: &PathRecord, (sight, samples): (&Sight, &Samples), at: Pos2) -> Option<Found> {
     let shown = state.prefs.shown;
-    let best = |found: Vec<Found>| found.into_iter().filter(|x| x.distance <= REACH).min_by(|a, b| a.distance.total_cmp(&b.distance));
+    let best = |found: Vec<Found>| {
+        found.into_iter().filter(|x| x.distance <= touch::reach(state, REACH)).min_by(|a, b| a.distance.total_cmp(&b.distance))
+    };
     let mut vertices = Vec::new();
     let mut add = |target, vertex: &VertexRecord, beside: Option<&VertexRecord>| {
         if let Some(Place { at: place, .. }) = places::place(sight, vertex, beside, None) {

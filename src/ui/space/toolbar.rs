@@ -4,10 +4,10 @@ use super::{Framing, Which};
 use crate::ui::keys::{self, Action};
 use crate::ui::live::Live;
 use crate::ui::state::{Maximised, State};
-use crate::ui::text::{SpaceText, fill};
+use crate::ui::text::{PhoneText, SpaceText, fill};
 use crate::ui::widgets::labelled;
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
-use eframe::egui::{Button, DragValue, IntoAtoms, Label, PopupCloseBehavior, RichText, Sense, Slider, SliderClamping, Ui};
+use eframe::egui::{Button, DragValue, IntoAtoms, Label, PopupCloseBehavior, RichText, ScrollArea, Sense, Slider, SliderClamping, Ui};
 
 /// Most samples that are drawn at once.
 const MOST: u32 = 256;
@@ -23,6 +23,22 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     }
     let (through, help) = (state.say(SpaceText::Through), state.say(SpaceText::HelpThrough));
     ui.toggle_value(&mut state.space.through, through).on_hover_text(help);
+    if state.phone {
+        let (help, name) = (state.say(SpaceText::HelpView), format!("{} ⏷", state.say(SpaceText::View)));
+        let small = |ui: &mut Ui| {
+            let most = ui.ctx().content_rect().height() - 110.0;
+            ScrollArea::vertical().max_height(most).show(ui, |ui| {
+                ui.label(state.say(PhoneText::FingersSpace));
+                ui.separator();
+                view_menu(ui, state);
+                ui.separator();
+                ui.label(RichText::new(state.say(SpaceText::Samples)).strong());
+                samples_menu(ui, state, live);
+            });
+        };
+        menu(name).ui(ui, small).0.on_hover_text(help);
+        return;
+    }
     let count = state.space.samples.count;
     let samples =
         if count == 0 { state.say(SpaceText::Samples).to_owned() } else { fill(state.say(SpaceText::SamplesOf), &[&count.to_string()]) };

@@ -7,7 +7,7 @@ pub mod verdict;
 pub mod why;
 
 use super::live::Live;
-use super::state::{Gain, Maximised, State};
+use super::state::{Gain, State};
 use super::text::StudyText;
 use crate::engine::{CellStudy, Frame, Mode, Study, Wish};
 use crate::film::scale::Scale;
@@ -24,12 +24,7 @@ pub struct StudyState {
 
 /// What is to be counted for what is on show: nothing that nobody sees; `paused`: rendering stands still.
 pub fn wish(state: &State, frame: Option<&Frame>, paused: bool) -> Wish {
-    let on_show = match state.maximised {
-        Maximised::None => state.prefs.pyramid_open,
-        Maximised::Pyramid => true,
-        _ => false,
-    };
-    if !on_show {
+    if !state.pyramid_on_show() {
         return Wish { paused, ..Wish::default() };
     }
     let black = |frame: &Frame| frame.stats.spp >= 1.0 && frame.thumbnails.iter().any(|x| x.share <= 0.0);
@@ -65,7 +60,7 @@ pub fn scale(state: &State, study: &Study, cell: &CellStudy) -> Option<Scale> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::state::Preferences;
+    use super::super::state::{Maximised, Preferences};
     use super::*;
 
     #[test]

@@ -18,11 +18,14 @@ const BAR: egui::Vec2 = vec2(120.0, 12.0);
 
 /// What the cells show, and why.
 pub fn choice(ui: &mut Ui, state: &mut State) {
-    keep_together(ui, 230.0);
-    let label = ui.label(state.say(StudyText::Mode)).on_hover_text(state.say(StudyText::HelpMode));
+    let name = state.say(StudyText::Mode);
+    let label = (!state.phone).then(|| {
+        keep_together(ui, 230.0);
+        ui.label(name).on_hover_text(state.say(StudyText::HelpMode)).id
+    });
     let lang = state.prefs.lang;
     let selected = mode_texts(state.study.mode)[0].in_language(lang);
-    let response = ComboBox::from_id_salt("mode").selected_text(selected).width(118.0).show_ui(ui, |ui| {
+    let response = ComboBox::from_id_salt("mode").selected_text(selected).width(if state.phone { 84.0 } else { 118.0 }).show_ui(ui, |ui| {
         for mode in Mode::ALL {
             let [name, help] = mode_texts(mode);
             ui.selectable_value(&mut state.study.mode, mode, name.in_language(lang)).on_hover_text(help.in_language(lang));
@@ -30,7 +33,14 @@ pub fn choice(ui: &mut Ui, state: &mut State) {
     });
     let hint = keys::hint(state, Text::KeyMode, Action::Mode);
     let help = format!("{}\n{hint}", state.say(mode_texts(state.study.mode)[1]));
-    response.response.labelled_by(label.id).on_hover_text(help);
+    let response = match label {
+        Some(label) => response.response.labelled_by(label),
+        None => {
+            response.response.widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, name));
+            response.response
+        }
+    };
+    response.on_hover_text(help);
     let hint = format!("{}  \n{}", state.say(StudyText::HelpWhy), keys::hint(state, Text::KeyWhy, Action::Why));
     ui.toggle_value(&mut state.study.why, StudyText::Why.in_language(lang)).on_hover_text(hint);
 }

@@ -325,6 +325,7 @@ texts! { Text;
     KeyPause: "Pause or resume rendering", "暂停或继续渲染";
     KeyUndo: "Undo the last change of scene, camera, lens, size or settings (Shift: redo it)", "撤销对场景、相机、镜头、尺寸或设置的上一次更改（Shift：重做）";
     KeyRedo: "Redo what was undone", "重做被撤销的更改";
+    KeyCopyLink: "Copy a link to all that is on show", "复制指向当前画面的链接";
     KeyHelp: "This list of keys", "显示此快捷键列表";
     SceneNeeds: "{} triangles; needs: {}", "{} 个三角形；需要：{}";
     SceneTextures: "Textures: {}", "纹理：{}";

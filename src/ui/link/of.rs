@@ -1,0 +1,240 @@
+//! The link to what is on show. Everything a state has is named here: what is added to it must be decided on.
+
+use super::{LINK_VERSION, Layout, Link, Picture, Shared, Space};
+use crate::bdpt::record::RECORD_VERSION;
+use crate::scene::builtin;
+use crate::scene::environment::EnvironmentSource;
+use crate::ui::checks::ChecksState;
+use crate::ui::compare::{CompareState, Source};
+use crate::ui::edit::EditState;
+use crate::ui::image_view::ViewState;
+use crate::ui::inspector::InspectState;
+use crate::ui::preferences::{Preferences, Shown};
+use crate::ui::space::{SampleFilter, SpaceState};
+use crate::ui::state::{ChosenEnvironment, Opening, Selection, State};
+use crate::ui::study::StudyState;
+
+/// The film's size at the first start, pixels.
+const FILM: [u32; 2] = [512, 512];
+
+impl Default for Link {
+    /// What is on show at the first start.
+    fn default() -> Self {
+        let first = builtin::list().first().map_or("", |scene| scene.name);
+        Self::of(&State::new(Preferences::default(), FILM), &Opening::of(first))
+    }
+}
+
+impl Link {
+    /// The link to a state, and to the scene that is on show in it.
+    pub fn of(state: &State, opened: &Opening) -> Self {
+        // Not in a link: what is on its way, typed or said; who renders; whatever the machine and its person alone know.
+        let State {
+            prefs,
+            open: _,
+            scene_field: _,
+            environment_field: _,
+            turning: _,
+            camera,
+            pose,
+            lens,
+            picking_focus: _,
+            focus_on: _,
+            size,
+            settings,
+            restart: _,
+            paused: _,
+            hidden,
+            selection,
+            placement,
+            exposure,
+            tonemap,
+            view,
+            compare,
+            walk,
+            maximised,
+            narrow: _,
+            space_in_front,
+            help: _,
+            space,
+            edit,
+            study,
+            checks,
+            export: _,
+            tour: _,
+            inspect,
+            messages: _,
+            phone: _,
+            beside: _,
+            menu: _,
+            touch: _,
+            fingers: _,
+            files: _,
+            drawn: _,
+            link: _,
+            shares,
+        } = state;
+        let Opening { scene, files, inside, environment } = opened;
+        let Selection { pixel, sample, strategy, vertex } = *selection;
+        let EditState { edits, history: _, moving: _, grip: _, bookmark_name: _, renaming: _ } = edit;
+        let ViewState { offset, pointer: _, one_to_one: _ } = *view;
+        let StudyState { mode, why } = *study;
+        let ChecksState { ask: _, thorough: _, unfolded: _ } = checks;
+        let InspectState { bars, what_if, search: _, nothing_found: _ } = inspect;
+        let (environment, turn) = environment.as_ref().map_or((None, 0.0), surroundings);
+        let layout = Layout {
+            maximised: *maximised,
+            space_in_front: *space_in_front,
+            shares: *shares,
+            walk: *walk,
+            bars: *bars,
+            what_if: *what_if,
+            mode,
+            why,
+            ..layout(prefs)
+        };
+        let picture = Picture {
+            exposure: *exposure,
+            offset,
+            tonemap: *tonemap,
+            placement: *placement,
+            drawn: drawn(prefs.shown),
+            ..compared(compare)
+        };
+        Self {
+            version: LINK_VERSION,
+            estimator: Some(RECORD_VERSION),
+            lang: Some(prefs.lang),
+            scene: shared(scene, files.is_some()),
+            inside: inside.clone(),
+            environment,
+            turn,
+            edits: edits.clone(),
+            camera: *camera as u32,
+            pose: *pose,
+            lens: *lens,
+            size: *size,
+            settings: *settings,
+            hidden: *hidden,
+            pixel: Some(pixel).filter(|pixel| *pixel != size.map(|side| side / 2)),
+            sample,
+            strategy,
+            vertex: vertex as u32,
+            picture,
+            layout,
+            space: watched(space),
+        }
+    }
+}
+
+/// A path's last part, on whatever system.
+pub fn file_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
+}
+
+fn shared(scene: &str, in_memory: bool) -> Shared<String> {
+    let known = !in_memory && builtin::list().iter().any(|own| own.name == scene);
+    if known { Shared::Known(scene.to_owned()) } else { Shared::File(file_name(scene).to_owned()) }
+}
+
+fn surroundings(chosen: &ChosenEnvironment) -> (Option<Shared<[f32; 3]>>, f64) {
+    let ChosenEnvironment { source, rotation } = chosen;
+    let source = match source {
+        EnvironmentSource::Constant(radiance) => Shared::Known(radiance.to_array()),
+        EnvironmentSource::File(path) => Shared::File(file_name(&path.to_string_lossy()).to_owned()),
+        EnvironmentSource::Memory(file) => Shared::File(file_name(&file.name).to_owned()),
+    };
+    (Some(source), *rotation)
+}
+
+/// What is drawn over the picture, as flags.
+fn drawn(shown: Shown) -> [bool; 7] {
+    let Shown { eye, light, connections, blocked, splats, names, legend } = shown;
+    [eye, light, connections, blocked, splats, names, legend]
+}
+
+/// What of the window's own choices is a part of what is on show.
+fn layout(prefs: &Preferences) -> Layout {
+    let Preferences {
+        lang: _,
+        dark: _,
+        contrast: _,
+        reduced_motion: _,
+        scale: _,
+        backend: _,
+        shown: _,
+        gain,
+        cell,
+        tour: _,
+        tab,
+        sort,
+        inspector_open,
+        pyramid_open,
+        space_open,
+        camera_open,
+        recent: _,
+        bookmarks: _,
+    } = prefs;
+    Layout {
+        panels: [*inspector_open, *pyramid_open, *space_open, *camera_open],
+        tab: *tab,
+        sort: *sort,
+        gain: *gain,
+        cell: *cell,
+        // The caller's.
+        maximised: crate::ui::state::Maximised::None,
+        space_in_front: false,
+        shares: [None; 3],
+        walk: crate::ui::state::Walk::Full,
+        bars: crate::ui::inspector::Bars::default(),
+        what_if: None,
+        mode: crate::engine::Mode::default(),
+        why: false,
+    }
+}
+
+/// Pictures that were kept stay where they are.
+fn compared(compare: &CompareState) -> Picture {
+    let CompareState { open, a, b, mode, metric, flipped, peeking: _, split, kept: _, count: _, keep: _, field: _, load: _ } = compare;
+    let travels = |source: &Source| !matches!(source, Source::Kept(_));
+    Picture {
+        source: Some(*a).filter(travels).unwrap_or(Source::Image),
+        other: b.filter(travels),
+        compare: open.then_some(*mode),
+        metric: *metric,
+        split: *split,
+        flipped: *flipped,
+        // The caller's.
+        exposure: 0.0,
+        offset: 0.0,
+        tonemap: crate::film::tonemap::ToneMap::default(),
+        placement: crate::ui::state::Placement::Fit,
+        drawn: [true; 7],
+    }
+}
+
+fn watched(space: &SpaceState) -> Space {
+    let SpaceState {
+        orbit,
+        through,
+        cull,
+        follow,
+        lobe,
+        samples,
+        frame: _,
+        steps: _,
+        attention: _,
+        pose: _,
+        placed: _,
+        home,
+        arrival,
+        followed: _,
+    } = space;
+    let SampleFilter { count, which, length, sides } = *samples;
+    // A view that nobody looked at yet is still as the last link has it.
+    let (orbit, through) = match arrival {
+        Some(arrival) => (arrival.orbit, arrival.through),
+        None => (home.filter(|home| home != orbit).map(|_| *orbit), *through),
+    };
+    Space { orbit, through, cull: *cull, follow: *follow, lobe: *lobe, samples: count, which, length, sides }
+}
