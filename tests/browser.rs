@@ -7,14 +7,24 @@
 #![cfg(not(target_arch = "wasm32"))]
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
+#[path = "browser/access.rs"]
+mod access;
+#[path = "browser/chinese.rs"]
+mod chinese;
 #[path = "browser/driver.rs"]
 mod driver;
+#[path = "browser/files.rs"]
+mod files;
 #[path = "browser/life.rs"]
 mod life;
+#[path = "browser/links.rs"]
+mod links;
 #[path = "browser/page.rs"]
 mod page;
 #[path = "browser/picture.rs"]
 mod picture;
+#[path = "browser/saving.rs"]
+mod saving;
 #[path = "browser/select.rs"]
 mod select;
 #[path = "browser/site.rs"]

@@ -40,7 +40,7 @@ fn a_dropped_scene_is_rendered_a_broken_one_refused_and_nothing_leaves_the_machi
             let mut parts = summary.pixel.split(',').map(|part| part.parse().expect("a number"));
             [parts.next().expect("x"), parts.next().expect("y")]
         };
-        let mut shows = |page: &mut Page, scene: &str, name: &str| {
+        let shows = |page: &mut Page, scene: &str, name: &str| {
             page.until(&format!("document.querySelector('#summary').textContent.includes('{name}')"));
             page.sleep(1200);
             page.until_spp(1.0);

@@ -6,8 +6,8 @@ use std::process::{Command, Output};
 use std::sync::OnceLock;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
-/// The version of playwright-core, the driver's only package.
-const PLAYWRIGHT: &str = "1.65.1";
+/// The version of playwright-core, the driver's only package: the last one for Node 18, which Debian 12 has.
+const PLAYWRIGHT: &str = "1.61.0";
 /// The names under which Chromium is installed.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 

@@ -31,6 +31,9 @@ impl Twin {
         window.state_mut().open_link(link);
         let mut twin = Self(window);
         twin.until(|app| app.live().frame().is_some() && app.live().record(app.state()).is_some());
+        // The page needs the processor more.
+        twin.0.state_mut().state_mut().paused = true;
+        twin.0.run_steps(2);
         twin
     }
 
