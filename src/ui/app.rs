@@ -7,9 +7,7 @@ use super::live::{Live, SceneSource};
 use super::pictures::Pictures;
 use super::state::{Maximised, Preferences, State};
 use super::wake::Wake;
-use super::{
-    files, fonts, help, image_view, inspector, keys, messages, phone, pyramid, space, status_bar, theme, top_bar, touch, tour,
-};
+use super::{files, fonts, help, image_view, inspector, keys, messages, phone, pyramid, space, status_bar, theme, top_bar, touch, tour};
 use eframe::egui::{self, CentralPanel, Color32, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
 use eframe::egui_wgpu::RenderState;
 use web_time::Instant;

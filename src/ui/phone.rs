@@ -2,6 +2,7 @@
 //! other panel, chosen by tabs; and a menu in place of most of the top bar.
 
 use super::image_view::Desk;
+use super::link;
 use super::live::Live;
 use super::pictures::Pictures;
 use super::state::{Maximised, State};
@@ -123,9 +124,12 @@ fn named(state: &State, text: impl Words, on: bool) -> WidgetInfo {
 /// What does not fit into the top bar.
 fn menu(ui: &mut Ui, state: &mut State, live: &Live) {
     ScrollArea::vertical().id_salt("phone menu").auto_shrink(false).show(ui, |ui| {
-        if ui.button(state.say(PhoneText::Keys)).clicked() {
-            state.help = true;
-        }
+        ui.horizontal(|ui| {
+            if ui.button(state.say(PhoneText::Keys)).clicked() {
+                state.help = true;
+            }
+            link::button(ui, state);
+        });
         ui.separator();
         ui.horizontal_wrapped(|ui| top_bar::estimator(ui, state, live));
         head(ui, state, LooksText::Rendering);
