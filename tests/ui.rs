@@ -51,6 +51,8 @@ mod look_inspect;
 mod looks;
 #[path = "ui/measure.rs"]
 mod measure;
+#[path = "ui/memory.rs"]
+mod memory;
 #[path = "ui/numbers.rs"]
 mod numbers;
 #[path = "ui/pixel.rs"]
