@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn the_hash_is_pinned() {
-        // A change here changes every picture ever shared: it needs a new version number in links.
+        // A change here changes every picture ever shared: RECORD_VERSION, which links hold, must be raised with it.
         assert_eq!(pcg4d([1, 2, 3, 4]), [908_250_390, 4_044_648_920, 3_775_961_919, 45_698_095]);
     }
 }

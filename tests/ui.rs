@@ -43,12 +43,16 @@ mod keys;
 mod layout;
 #[path = "ui/lens.rs"]
 mod lens;
+#[path = "ui/link.rs"]
+mod link;
 #[path = "ui/look_inspect.rs"]
 mod look_inspect;
 #[path = "ui/looks.rs"]
 mod looks;
 #[path = "ui/measure.rs"]
 mod measure;
+#[path = "ui/memory.rs"]
+mod memory;
 #[path = "ui/numbers.rs"]
 mod numbers;
 #[path = "ui/phone.rs"]

@@ -4,6 +4,8 @@
 //! the window draws and what `inspect --json` prints. Positions are in the file's coordinates.
 
 mod build;
+#[cfg(test)]
+mod pinned;
 pub use build::record;
 
 use super::reason::Reason;

@@ -143,6 +143,8 @@ pub struct Layout {
     pub panels: [bool; 4],
     /// Is the 3-D view in front where there is no room for both?
     pub space_in_front: bool,
+    /// What shares a small window with the image.
+    pub beside: Maximised,
     /// How much of their room the inspector, the pyramid and the 3-D view take, thousandths; `None` = as at the first start.
     pub shares: [Option<u32>; 3],
     /// Page of the inspector.

@@ -2,6 +2,7 @@
 //! other panel, chosen by tabs; and a menu in place of most of the top bar.
 
 use super::image_view::Desk;
+use super::link;
 use super::live::Live;
 use super::pictures::Pictures;
 use super::state::{Maximised, State};
@@ -136,9 +137,12 @@ fn named(state: &State, text: impl Words, on: bool) -> WidgetInfo {
 /// What does not fit into the top bar.
 fn menu(ui: &mut Ui, state: &mut State, live: &Live) {
     ScrollArea::vertical().id_salt("phone menu").auto_shrink(false).show(ui, |ui| {
-        if ui.button(state.say(PhoneText::Keys)).clicked() {
-            state.help = true;
-        }
+        ui.horizontal(|ui| {
+            if ui.button(state.say(PhoneText::Keys)).clicked() {
+                state.help = true;
+            }
+            link::button(ui, state);
+        });
         // In full, what the status bar has no room for.
         for sentence in live.frame().map(|frame| status_bar::renderer(state, &frame.stats)).into_iter().flatten() {
             ui.label(RichText::new(sentence).small().weak());

@@ -2,11 +2,13 @@
 //! [`App`](super::App) goes on in a new one; what cannot go on says so on the page (`web/loader.js`).
 
 pub mod access;
+mod address;
 mod console;
 pub mod files;
 mod graphics;
 pub mod page;
 
+use self::address::Address;
 use super::drawn::{Drawn, Draws, Why, Wish};
 use super::text::{Lang, WebText, fill};
 use super::watch::{Losses, Watch};
@@ -45,10 +47,9 @@ fn panicked(info: &PanicHookInfo<'_>) {
 async fn keep_open() {
     let asked = page::query("renderer");
     let wish = Wish::read(asked.as_deref());
-    let mut watcher = Watcher { unknown: wish.err().map(str::to_owned), ..Watcher::default() };
     let scene = crate::scene::builtin::list().first().map_or(String::new(), |scene| scene.name.to_owned());
     let half = page::take_restart_hint();
-    watcher.halved = half;
+    let mut watcher = Watcher::new(wish.err(), half);
     let start = Start { source: SceneSource::Named(scene), size: if half { FILM.map(|side| side / 2) } else { FILM } };
     let mut drawn = graphics::choose(wish.unwrap_or(Wish::Any)).await;
     let told = Rc::new(RefCell::new(None));
@@ -122,8 +123,8 @@ fn text_of(value: &JsValue) -> String {
 }
 
 /// Tells the page what the program has to say, before every pass.
-#[derive(Default)]
 struct Watcher {
+    address: Address,
     /// A renderer that the address asks for and nobody knows.
     unknown: Option<String>,
     /// Was the film made smaller because the memory was used up?
@@ -136,10 +137,27 @@ struct Watcher {
 }
 
 impl Watcher {
+    /// Nothing has been told yet.
+    fn new(unknown: Option<&str>, halved: bool) -> Self {
+        let (address, unknown) = (Address::new(halved), unknown.map(str::to_owned));
+        Self {
+            address,
+            unknown,
+            halved,
+            lang: None,
+            alerts: String::new(),
+            drawn: false,
+            rendered: false,
+            access: access::Access::default(),
+        }
+    }
+
     /// `news`: how the window is drawn, if that has changed.
     fn pass(&mut self, mut pass: Pass<'_>, news: Option<Drawn>) {
         self.access.update(&mut pass);
-        let Pass { app, .. } = pass;
+        let Pass { app, ctx, .. } = pass;
+        self.address.pass(app, ctx);
+        let loaded = app.live().scene().is_some() && app.live().loading().is_none();
         let state = app.state_mut();
         let lang = state.prefs.lang;
         if let Some(drawn) = news {
@@ -155,7 +173,8 @@ impl Watcher {
         if let Some(unknown) = self.unknown.take() {
             state.tell(true, fill(WebText::NoSuchRenderer.in_language(lang), &[&unknown]));
         }
-        if std::mem::take(&mut self.halved) {
+        if self.halved && loaded {
+            self.halved = false;
             let [width, height] = state.size.map(|side| side.to_string());
             state.tell(false, fill(WebText::HalfSize.in_language(lang), &[&width, &height]));
         }

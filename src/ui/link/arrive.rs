@@ -93,7 +93,12 @@ fn joined(some: &SceneEdits, one: &SceneEdits) -> SceneEdits {
 /// What is to be rendered: what of the link cannot be goes back to the first start's.
 fn job(link: &Link, scene: Arc<Scene>, ignored: &mut Vec<Ignored>) -> Job {
     let start = Job::new(scene);
-    let mut job = Job { weighted_layers: true, ..start.clone() };
+    let mut job = Job { weighted_layers: true, ..start };
+    let (camera, pose, lens, size, settings) = (link.camera as usize, link.pose, link.lens, link.size, link.settings);
+    let whole = Job { camera, pose, lens, size, settings, ..job.clone() };
+    if whole.check().is_ok() {
+        return whole;
+    }
     let mut attempt = |key: &str, change: &dyn Fn(&mut Job)| {
         let mut with = job.clone();
         change(&mut with);
@@ -149,8 +154,9 @@ fn picture(picture: &Picture, state: &mut State) {
 }
 
 fn layout(layout: &Layout, state: &mut State) {
-    let Layout { maximised, panels, space_in_front, shares, tab, sort, walk, bars, what_if, mode, why, gain, cell } = *layout;
+    let Layout { maximised, panels, space_in_front, beside, shares, tab, sort, walk, bars, what_if, mode, why, gain, cell } = *layout;
     (state.maximised, state.space_in_front, state.walk) = (maximised, space_in_front, walk);
+    (state.beside, state.menu) = (beside, false);
     (state.inspect.bars, state.inspect.what_if) = (bars, what_if);
     (state.study.mode, state.study.why) = (mode, why);
     if state.shares != shares {

@@ -27,6 +27,11 @@ pub fn text(state: &State, live: &Live) -> (String, bool) {
     if let Some(coming) = state.link.without_sky() {
         (link.environment, link.turn, link.edits.environment) = (coming.environment.clone(), coming.turn, coming.edits.environment);
     }
+    bounded(link)
+}
+
+/// A link that can be read again; without the changes of the scene if it cannot with them.
+pub(super) fn bounded(link: Link) -> (String, bool) {
     let whole = link.to_text();
     if whole.len() <= MOST_BYTES {
         return (whole, false);

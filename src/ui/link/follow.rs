@@ -2,7 +2,7 @@
 
 use super::arrive::arrive;
 use super::ignored::{Ignored, Why, sentence};
-use super::of::file_name;
+use super::of::{file_name, sky_name};
 use super::{Link, MOST_BYTES, Shared};
 use crate::scene::environment::EnvironmentSource;
 use crate::scene::{SceneError, builtin};
@@ -93,8 +93,8 @@ pub fn open(state: &mut State, live: &Live, text: &str) {
         }
     };
     state.prefs.lang = link.lang.unwrap_or(state.prefs.lang);
-    let (file, link) = match &link.scene {
-        Shared::Known(name) if builtin::list().iter().any(|own| own.name == name) => (Opening::of(name), link),
+    let (shown, link) = match &link.scene {
+        Shared::Known(name) if builtin::list().iter().any(|own| own.name == name) => (Opening::of(name.as_str()), link),
         Shared::Known(name) => {
             ignored.push(Ignored::new(format!("scene={name}"), Why::NoScene));
             (first(), elsewhere(&link, &mut ignored))
@@ -112,7 +112,7 @@ pub fn open(state: &mut State, live: &Live, text: &str) {
             }
         },
     };
-    let opening = Opening { inside: link.inside.clone(), environment: environment(&link, live.opened()), ..file };
+    let opening = Opening { inside: link.inside.clone(), environment: environment(&link, live.opened()), ..shown };
     let there = live.loading().is_none() && state.open.is_none() && live.opened() == Some(&opening);
     let awaited = Awaited::Scene(opening.clone());
     state.link.coming = Some(Coming { text: text.trim().to_owned(), link, ignored, awaited });
@@ -146,11 +146,7 @@ fn environment(link: &Link, opened: Option<&Opening>) -> Option<ChosenEnvironmen
 }
 
 fn is_file(source: &EnvironmentSource, name: &str) -> bool {
-    match source {
-        EnvironmentSource::Constant(_) => false,
-        EnvironmentSource::File(path) => file_name(&path.to_string_lossy()) == name,
-        EnvironmentSource::Memory(file) => file_name(&file.name) == name,
-    }
+    sky_name(source).as_deref() == Some(name)
 }
 
 /// A scene is on show that was not before, or in another light: is it what a link waits for?
@@ -199,7 +195,8 @@ pub fn loaded(state: &mut State, live: &Live) {
 
 /// The loader gives a file its whole name.
 fn same(wanted: &Opening, opened: &Opening) -> bool {
-    (&wanted.inside, &wanted.environment) == (&opened.inside, &opened.environment) && file_name(&wanted.scene) == file_name(&opened.scene)
+    let same_parts = (&wanted.files, &wanted.inside, &wanted.environment) == (&opened.files, &opened.inside, &opened.environment);
+    same_parts && file_name(&wanted.scene) == file_name(&opened.scene)
 }
 
 fn wait(state: &mut State, awaited: Awaited) {
@@ -235,7 +232,7 @@ fn sky(state: &mut State, live: &Live, link: &Link, name: &str) {
 /// A scene could not be loaded. If a link wanted it inside its file, or in a light, that cannot be, it is shown as it is.
 pub fn refused(state: &mut State, opening: &Opening, error: &SceneError) -> Option<Opening> {
     let coming = state.link.coming.as_mut().filter(|coming| coming.awaited == Awaited::Scene(opening.clone()))?;
-    let plain = Opening::of(opening.scene.as_str());
+    let plain = Opening { inside: None, environment: None, ..opening.clone() };
     if plain == *opening {
         state.link.coming = None;
         return None;

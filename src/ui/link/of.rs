@@ -55,23 +55,23 @@ impl Link {
             maximised,
             narrow: _,
             space_in_front,
+            phone: _,
+            beside,
+            menu: _,
+            touch: _,
+            fingers: _,
             help: _,
             space,
             edit,
             study,
             checks,
             export: _,
+            files: _,
             tour: _,
             inspect,
-            messages: _,
-            phone: _,
-            beside: _,
             text_view: _,
-            menu: _,
-            touch: _,
-            fingers: _,
-            files: _,
             drawn: _,
+            messages: _,
             link: _,
             shares,
         } = state;
@@ -86,6 +86,7 @@ impl Link {
         let layout = Layout {
             maximised: *maximised,
             space_in_front: *space_in_front,
+            beside: *beside,
             shares: *shares,
             walk: *walk,
             bars: *bars,
@@ -133,6 +134,15 @@ pub fn file_name(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
+/// The name of the file an environment is read from.
+pub fn sky_name(source: &EnvironmentSource) -> Option<String> {
+    match source {
+        EnvironmentSource::Constant(_) => None,
+        EnvironmentSource::File(path) => Some(file_name(&path.to_string_lossy()).to_owned()),
+        EnvironmentSource::Memory(file) => Some(file.short_name().to_owned()),
+    }
+}
+
 fn shared(scene: &str, in_memory: bool) -> Shared<String> {
     let known = !in_memory && builtin::list().iter().any(|own| own.name == scene);
     if known { Shared::Known(scene.to_owned()) } else { Shared::File(file_name(scene).to_owned()) }
@@ -142,8 +152,7 @@ fn surroundings(chosen: &ChosenEnvironment) -> (Option<Shared<[f32; 3]>>, f64) {
     let ChosenEnvironment { source, rotation } = chosen;
     let source = match source {
         EnvironmentSource::Constant(radiance) => Shared::Known(radiance.to_array()),
-        EnvironmentSource::File(path) => Shared::File(file_name(&path.to_string_lossy()).to_owned()),
-        EnvironmentSource::Memory(file) => Shared::File(file_name(&file.name).to_owned()),
+        file => Shared::File(sky_name(file).unwrap_or_default()),
     };
     (Some(source), *rotation)
 }
@@ -185,6 +194,7 @@ fn layout(prefs: &Preferences) -> Layout {
         // The caller's.
         maximised: crate::ui::state::Maximised::None,
         space_in_front: false,
+        beside: crate::ui::state::Maximised::Inspector,
         shares: [None; 3],
         walk: crate::ui::state::Walk::Full,
         bars: crate::ui::inspector::Bars::default(),

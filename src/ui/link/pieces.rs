@@ -101,6 +101,7 @@ pub const TABLE: &[Piece] = &[
     piece!("max", MAXIMISED, layout.maximised),
     piece!("panels", Flags(["inspector", "pyramid", "space", "camera"]), layout.panels),
     piece!("front", OneOf(&[(false, "image"), (true, "space")]), layout.space_in_front),
+    piece!("beside", BESIDE, layout.beside),
     piece!("inspector", Maybe(SHARE), layout.shares[0]),
     piece!("pyramid", Maybe(SHARE), layout.shares[1]),
     piece!("space", Maybe(SHARE), layout.shares[2]),
@@ -142,6 +143,13 @@ const METRIC: OneOf<Metric> = OneOf(&[(Metric::Signed, "signed"), (Metric::Absol
 
 const MAXIMISED: OneOf<Maximised> = OneOf(&[
     (Maximised::None, "none"),
+    (Maximised::Image, "image"),
+    (Maximised::Space, "space"),
+    (Maximised::Inspector, "inspector"),
+    (Maximised::Pyramid, "pyramid"),
+]);
+
+const BESIDE: OneOf<Maximised> = OneOf(&[
     (Maximised::Image, "image"),
     (Maximised::Space, "space"),
     (Maximised::Inspector, "inspector"),

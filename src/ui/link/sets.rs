@@ -9,6 +9,8 @@
 use super::words::{Codec, OneStrategy, Read};
 use crate::bdpt::{MAX_EDGES, Strategy, StrategySet};
 
+/// A list of so many letters can still be read by a person.
+const READABLE: usize = 60;
 const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
 
 /// A set of strategies.
@@ -58,10 +60,12 @@ impl Codec for Strategies {
     type Value = StrategySet;
 
     fn write(&self, set: &StrategySet) -> String {
-        let texts = bases().into_iter().map(|(name, base)| listed(name, &base, set)).chain([bits(set)]);
+        let texts = bases().into_iter().map(|(name, base)| listed(name, &base, set));
         // A set of all there are is not the set of all there could be: only what comes back as it was is right.
         let exact = texts.filter(|text| self.read(text).is_some_and(|(back, _)| back == *set));
-        exact.min_by_key(String::len).unwrap_or_default()
+        let shortest = exact.min_by_key(String::len).unwrap_or_default();
+        let bits = if shortest.len() > READABLE { bits(set) } else { return shortest };
+        if bits.len() < shortest.len() && self.read(&bits).is_some_and(|(back, _)| back == *set) { bits } else { shortest }
     }
 
     fn read(&self, text: &str) -> Read<StrategySet> {

@@ -101,6 +101,7 @@ fn random_state(dice: &mut Dice, scene: &Scene) -> State {
     state.walk = dice.of(&[Walk::Full, Walk::Light, Walk::Eye]);
     state.maximised = dice.of(&[Maximised::None, Maximised::Image, Maximised::Space, Maximised::Inspector, Maximised::Pyramid]);
     state.space_in_front = dice.one_in(2);
+    state.beside = dice.of(&[Maximised::Image, Maximised::Space, Maximised::Inspector, Maximised::Pyramid]);
     state.shares = [(); 3].map(|()| Some(50 + dice.below(900) as u32).filter(|_| dice.one_in(2)));
     (state.study.mode, state.study.why) = (dice.of(&Mode::ALL), dice.one_in(2));
     state.inspect.bars = dice.of(&[Bars::Density, Bars::Weight, Bars::Contribution]);
@@ -189,11 +190,11 @@ const KEPT: [&str; 3] = [
     "#v=1&est=3&lang=zh&scene=spots&env=0.5,0.25,1e-3&turn=-12.5&cam=1&pose=0,1,2.5,1,0,0,0,1,0,0,0,-1,0.7&lens=0.03,inf&size=640x360\
      &k=8&seed=7&weights=balance&beta=1.5&cutoff=0.2&roulette=off&fresh=off&use=pt,s2t1&hide=none,s1t2&px=256,300&n=3&strategy=s2t2\
      &vertex=3&ev=1.5&offset=-0.1&tone=aces&view=3,100,50.5&picture=s1t2.raw&other=image&compare=split&metric=relative&split=0.25\
-     &flipped=on&draw=eye,splats&max=image&panels=inspector,camera&front=space&inspector=357&pyramid=200&space=400&tab=path\
+     &flipped=on&draw=eye,splats&max=image&panels=inspector,camera&front=space&beside=pyramid&inspector=357&pyramid=200&space=400&tab=path\
      &sort=weight&walk=light&bars=density&whatif=power,3,0.1&cells=variance&why=on&gain=same&cell=100\
      &orbit=0.1,0.2,0.3,4,0.5,0.6,0.7&through=on&cull=off&follow=on&lobe=off&samples=64&which=role&length=3&sides=eye\
-     &mat.2.name=red%20wall&mat.2.color=1,0.5,0&lamp.0.name=lamp&lamp.0.power=2&lamp.0.offset=0.1,0,-0.25&light.1.name=%E7%81%AF\
-     &light.1.cone=10,20&sky.strength=2",
+     &mat.2.color=1,0.5,0&mat.2.name=red%20wall&lamp.0.name=lamp&lamp.0.offset=0.1,0,-0.25&lamp.0.power=2&light.1.cone=10,20\
+     &light.1.name=%E7%81%AF&sky.strength=2",
     "#v=1&est=3&lang=en&file=room.glb&inside=night&envfile=sky.hdr",
     "#v=1&est=3&lang=en&scene=cornell&hide=bits,AAB3",
 ];
@@ -234,7 +235,8 @@ fn links_of_version_1_mean_what_they_meant() {
     assert_eq!((picture.compare, picture.metric, picture.split), (Some(CompareMode::Split), Metric::RelativeSquared, 0.25));
     assert_eq!((picture.flipped, picture.drawn), (true, [true, false, false, false, true, false, false]));
     let layout = link.layout;
-    assert_eq!((layout.maximised, layout.panels, layout.space_in_front), (Maximised::Image, [true, false, false, true], true));
+    assert_eq!((layout.maximised, layout.beside, layout.space_in_front), (Maximised::Image, Maximised::Pyramid, true));
+    assert_eq!(layout.panels, [true, false, false, true]);
     assert_eq!((layout.shares, layout.tab, layout.sort), ([Some(357), Some(200), Some(400)], Tab::Path, Sort::Weight));
     assert_eq!((layout.walk, layout.bars, layout.mode, layout.why), (Walk::Light, Bars::Density, Mode::Variance, true));
     assert_eq!((layout.what_if.unwrap().beta, layout.gain, layout.cell), (3.0, Gain::Same, 100.0));
@@ -265,7 +267,7 @@ fn absurd_pieces_are_named_and_the_rest_is_followed() {
     let cornell = file("cornell");
     let instead = |value: &str| Why::Instead(value.to_owned());
     let cases = [
-        ("k=1000", vec![("k=1000", instead("64"))]),
+        ("size=32x32&k=1000", vec![("k=1000", instead("64"))]),
         ("size=1000000000x5", vec![("size=1000000000x5", instead("32768x5"))]),
         ("beta=nan&seed=-1&n=1e39", vec![("beta=nan", Why::Unreadable), ("seed=-1", instead("0")), ("n=1e39", instead("4294967295"))]),
         ("ev=inf", vec![("ev=inf", instead("20"))]),
@@ -314,6 +316,13 @@ fn a_link_that_is_too_long_is_not_read() {
     let long = format!("#v=1&{}", "a".repeat(MOST_BYTES));
     assert_eq!(Link::parse(&long), Err(MOST_BYTES + 5));
     assert!(Link::parse(&long[..MOST_BYTES]).is_ok());
+    // Nor is one written: the changes of the scene stay behind.
+    let mut link = Link::default();
+    let edit = MaterialEdit { name: "x".repeat(40), color: Some([0.5; 3]), ..MaterialEdit::default() };
+    link.edits.materials.insert(0, edit.clone());
+    assert_eq!(copy::bounded(link.clone()), (link.to_text(), false));
+    link.edits.materials.extend((1..300).map(|index| (index, edit.clone())));
+    assert_eq!(copy::bounded(link), (Link::default().to_text(), true));
 }
 
 /// Links that are nearly right: letters changed, pieces moved, doubled and cut.

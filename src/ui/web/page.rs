@@ -28,6 +28,24 @@ pub fn query(name: &str) -> Option<String> {
     web_sys::UrlSearchParams::new_with_str(&search).ok()?.get(name)
 }
 
+/// The address up to the `#`.
+pub fn address() -> String {
+    let href = window().and_then(|window| window.location().href().ok()).unwrap_or_default();
+    href.split('#').next().unwrap_or_default().to_owned()
+}
+
+/// The address from the `#` on, as it is written.
+pub fn hash() -> String {
+    window().and_then(|window| window.location().hash().ok()).unwrap_or_default()
+}
+
+/// Writes the address from the `#` on; the way back in the browser's history stays as it is.
+pub fn set_hash(hash: &str) {
+    let Some(window) = window().filter(|_| self::hash() != hash) else { return };
+    // A browser that refuses (Safari, more than a hundred times in half a minute) shows an older address for a while.
+    drop(window.history().map(|history| history.replace_state_with_url(&JsValue::NULL, "", Some(hash))));
+}
+
 /// The page speaks this language, too.
 pub fn set_lang(lang: Lang) {
     let (tag, title) = match lang {

@@ -1,0 +1,144 @@
+//! What can happen to a page: nobody looks at it, its graphics device is lost, its program fails.
+
+use super::driver::Mode;
+use super::page::{Page, Visit};
+use serde_json::json;
+
+const LINK: &str = "#v=1&scene=cornell&size=128x128&px=20,90&n=3";
+
+/// Lets the test say whether the page is hidden, and counts what renders: turns of the event loop, and the GPU's kernels.
+const HIDE: &str = r#"
+window.away = false;
+window.work = 0;
+Object.defineProperty(Document.prototype, "hidden", { get: () => window.away });
+Object.defineProperty(Document.prototype, "visibilityState", { get: () => (window.away ? "hidden" : "visible") });
+window.look = (away) => { window.away = away; document.dispatchEvent(new Event("visibilitychange")); };
+const count = (prototype, name) => {
+  const original = prototype?.[name];
+  if (original) prototype[name] = function (...args) { window.work += 1; return original.apply(this, args); };
+};
+count(MessagePort.prototype, "postMessage");
+count(globalThis.GPUComputePassEncoder?.prototype, "dispatchWorkgroups");
+count(globalThis.GPUComputePassEncoder?.prototype, "dispatchWorkgroupsIndirect");
+"#;
+
+/// Keeps every graphics device of the page, so that a test can take it away.
+const KEEP: &str = r#"
+window.devices = [];
+const request = globalThis.GPUAdapter?.prototype.requestDevice;
+if (request) {
+  GPUAdapter.prototype.requestDevice = async function (...args) {
+    const device = await request.apply(this, args);
+    window.devices.push(device);
+    return device;
+  };
+}
+"#;
+
+/// How much was rendered in two seconds.
+fn work(page: &mut Page) -> u64 {
+    let before = page.eval("window.work").as_u64().expect("a count");
+    page.sleep(2000);
+    page.eval("window.work").as_u64().expect("a count") - before
+}
+
+#[test]
+fn a_page_that_nobody_looks_at_does_not_render() {
+    for mode in Mode::BOTH {
+        let visit = Visit { init: vec![HIDE.to_owned()], ..Visit::new(mode, LINK) };
+        let Some(mut page) = Page::open("a_page_that_nobody_looks_at_does_not_render", visit) else { return };
+        page.interactive();
+        page.until_spp(2.0);
+        // The control: it does render while somebody looks.
+        let shown = work(&mut page);
+        page.eval("window.look(true)");
+        page.sleep(1500);
+        let hidden = work(&mut page);
+        let spp = page.summary().spp;
+        page.sleep(1000);
+        assert_eq!(page.summary().spp, spp, "{mode:?}: the samples stand still");
+        page.eval("window.look(false)");
+        page.until_spp(spp + 1.0);
+        let again = work(&mut page);
+        // A page that is away still looks now and then whether it is.
+        assert!(hidden <= 2 && shown > 20 && again > 20, "{mode:?}: shown {shown}, hidden {hidden}, shown again {again}");
+    }
+}
+
+#[test]
+fn a_lost_device_is_replaced_and_said_and_nothing_else_is_lost() {
+    for mode in Mode::BOTH {
+        let visit = Visit { init: vec![KEEP.to_owned()], ..Visit::new(mode, LINK) };
+        let Some(mut page) = Page::open("a_lost_device_is_replaced_and_said_and_nothing_else_is_lost", visit) else { return };
+        page.interactive();
+        page.until_spp(2.0);
+        let before = page.summary();
+        let canvas = "window.old = document.querySelector('#canvas'); true";
+        page.eval(canvas);
+        page.eval(match mode {
+            Mode::WebGpu => "window.devices.forEach((device) => device.destroy()); window.devices.length > 0",
+            _ => "window.old.getContext('webgl2').getExtension('WEBGL_lose_context').loseContext(); true",
+        });
+        page.until("document.querySelector('#canvas') !== null && document.querySelector('#canvas') !== window.old");
+        page.until("document.querySelector('#alerts').textContent !== ''");
+        let told = page.alerts();
+        assert!(told.to_lowercase().contains("graphics"), "{told}");
+        page.until_spp(before.spp + 2.0);
+        page.sleep(1000);
+        let after = page.summary();
+        assert_eq!((&after.pixel, &after.sample, &after.renderer), (&before.pixel, &before.sample, &before.renderer), "{mode:?}: {told}");
+        let colours = super::colours(&page.look(None));
+        assert!(colours > 500, "{mode:?}: the new canvas shows {colours} colours");
+        page.shot("after-loss");
+        // Chromium itself reports a lost context.
+        page.problems();
+    }
+}
+
+#[test]
+fn a_program_that_fails_says_so_on_the_page_and_starts_again() {
+    for mode in Mode::BOTH {
+        let Some(mut page) = Page::open("a_program_that_fails_says_so_on_the_page_and_starts_again", Visit::new(mode, LINK)) else { return };
+        page.interactive();
+        assert_eq!(page.eval("document.querySelector('#failure').checkVisibility()"), json!(false));
+        page.eval("setTimeout(() => { throw new WebAssembly.RuntimeError('unreachable'); }); true");
+        page.until("document.querySelector('#failure').checkVisibility()");
+        let text = page.eval("document.querySelector('#failure').innerText");
+        assert!(text.as_str().is_some_and(|text| text.contains("memory") && text.contains("Start again")), "{text}");
+        assert_eq!(page.eval("[document.activeElement.id, document.querySelector('#failure').role]"), json!(["failure-again", "alert"]));
+        page.shot("failure");
+        assert!(page.problems().iter().all(|problem| problem.contains("unreachable")), "only what was thrown");
+        // What starts again needs less memory, and shows the same.
+        page.press("Enter");
+        page.until("document.querySelector('#failure').hidden && performance.getEntriesByName('bdpt:interactive').length > 0");
+        page.until_spp(1.0);
+        assert_eq!(page.summary().sample, "3");
+        assert!(page.eval("location.hash").as_str().is_some_and(|hash| hash.contains("size=64x64")), "half the size");
+    }
+}
+
+#[test]
+fn without_any_graphics_the_page_explains() {
+    for visit in [Visit::new(Mode::Neither, ""), Visit::phone(Mode::Neither, "")] {
+        for locale in ["en-US", "zh-CN"] {
+            let Some(mut page) = Page::open("without_any_graphics_the_page_explains", Visit { locale, ..visit.clone() }) else { return };
+            page.until("document.querySelector('#failure').checkVisibility()");
+            let text = page.eval("document.querySelector('#failure').innerText");
+            let said = text.as_str().unwrap_or_default();
+            assert!(said.contains("WebGL 2") && said.contains(if locale == "en-US" { "hardware acceleration" } else { "硬件加速" }), "{said}");
+            page.shot(&format!("no-graphics-{locale}"));
+            page.problems();
+        }
+    }
+}
+
+#[test]
+fn a_program_that_cannot_be_loaded_is_told_of_on_the_page() {
+    let refuse = "const load = window.fetch; window.fetch = (name, ...more) => String(name).endsWith('.wasm') ? Promise.reject(new TypeError('Failed to fetch')) : load(name, ...more);";
+    let visit = Visit { init: vec![refuse.to_owned()], ..Visit::new(Mode::WebGl, "") };
+    let Some(mut page) = Page::open("a_program_that_cannot_be_loaded_is_told_of_on_the_page", visit) else { return };
+    page.until("document.querySelector('#failure').checkVisibility()");
+    let text = page.eval("document.querySelector('#failure').innerText");
+    assert!(text.as_str().is_some_and(|text| text.contains("could not be loaded") && text.contains("connection")), "{text}");
+    page.problems();
+}
