@@ -104,7 +104,7 @@ fn a_tap_on_a_phone_shows_the_path_that_inspect_shows() {
 #[test]
 fn a_toggle_changes_the_image() {
     for mode in Mode::BOTH {
-        let link = "#v=1&scene=cornell-spheres&size=128x128&max=image&px=64,90&strategy=s1t2&draw=";
+        let link = "#v=1&scene=cornell-spheres&size=128x128&max=image&px=64,90&strategy=s1t2&draw=none";
         let twin = Twin::new(DESKTOP, link);
         let Some(mut page) = Page::open("a_toggle_changes_the_image", Visit::new(mode, link)) else { return };
         page.interactive();
