@@ -56,6 +56,8 @@ async function open({ url, width, height, phone, locale, init, scheme, motion, s
   const touch = phone ? { hasTouch: true, isMobile: true } : {};
   context = await browser.newContext({ viewport: { width, height }, deviceScaleFactor: scale ?? 1, locale: locale ?? "en-US",
     colorScheme: scheme ?? "dark", reducedMotion: motion ?? "no-preference", acceptDownloads: true, ...touch });
+  // Where it plays a telephone, Chromium gives this as if a point had one pixel; the program then does as in browsers that lack it.
+  if (phone) await context.addInitScript("delete ResizeObserverEntry.prototype.devicePixelContentBoxSize");
   for (const script of init ?? []) await context.addInitScript(script);
   page = await context.newPage();
   page.setDefaultTimeout(60000);
@@ -132,7 +134,7 @@ async function act(command) {
     case "press": return page.keyboard.press(command.key, { delay: 60 });
     case "type": return page.keyboard.type(command.text, { delay: 20 });
     case "resize": return page.setViewportSize({ width: command.width, height: command.height });
-    case "shot": return void await page.screenshot({ path: command.path, clip: command.clip });
+    case "shot": return void await page.screenshot({ path: command.path, clip: command.clip ?? undefined });
     case "drop": return drop(command);
     case "download": return download(command);
     case "choose": return choose(command);

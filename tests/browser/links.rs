@@ -5,7 +5,7 @@ use super::page::{DESKTOP, Page, Visit};
 use super::select::{inspect, same_path};
 use super::twin::Twin;
 
-const LINK: &str = "#v=1&scene=glass-caustic&size=128x128&k=5&px=64,64&ev=1&hide=s0t2";
+const LINK: &str = "#v=1&scene=glass-caustic&size=128x128&k=5&px=64,64&ev=1&hide=none,s0t2";
 
 /// The address from # on, once it holds all of these.
 fn hash(page: &mut Page, pieces: &[&str]) -> String {
@@ -23,12 +23,13 @@ fn a_share_link_round_trips(mode: Mode) {
     let Some(mut page) = Page::open("a_share_link_round_trips", Visit::new(mode, LINK)) else { return };
     page.interactive();
     page.until_pixel([64, 64]);
+    page.until_spp(1.0);
     page.click(twin.pixel([40, 77]));
     page.until_pixel([40, 77]);
     page.press("n");
     page.press("n");
     page.press("e");
-    let link = hash(&mut page, &["px=40,77", "n=2", "ev=1.5", "scene=glass-caustic", "k=5", "hide=s0t2"]);
+    let link = hash(&mut page, &["px=40,77", "n=2", "ev=1.5", "scene=glass-caustic", "k=5", "hide=none,s0t2"]);
     let sent = page.summary();
     assert_eq!(sent.sample, "2");
     drop(page);

@@ -79,10 +79,10 @@ fn everything_can_be_saved_and_the_sample_is_the_one_that_inspect_prints(mode: M
         (ExportText::PictureAsSeen, "cornell.png"),
         (ExportText::Radiance, "cornell.exr"),
         (ExportText::AllStrategies, "cornell-strategies.exr"),
-        (ExportText::PathJson, "cornell-64-90-0.json"),
-        (ExportText::PathSvg, "cornell-64-90-0.svg"),
-        (ExportText::StrategiesCsv, "cornell-64-90-0-strategies.csv"),
-        (ExportText::VerticesCsv, "cornell-64-90-0-vertices.csv"),
+        (ExportText::PathJson, "cornell-x64y90-s0.json"),
+        (ExportText::PathSvg, "cornell-x64y90-s0.svg"),
+        (ExportText::StrategiesCsv, "cornell-x64y90-s0-strategies.csv"),
+        (ExportText::VerticesCsv, "cornell-x64y90-s0-vertices.csv"),
     ];
     let test = "everything_can_be_saved_and_the_sample_is_the_one_that_inspect_prints";
     let Some(mut page) = Page::open(test, Visit::new(mode, LINK)) else { return };

@@ -65,12 +65,6 @@ impl Twin {
         picture
     }
 
-    /// Takes the program's own fonts away: what they have and egui's do not is drawn as missing.
-    pub fn without_fonts(&mut self) {
-        self.0.ctx.set_fonts(egui::FontDefinitions::default());
-        self.0.run_steps(4);
-    }
-
     /// Where a pixel of the image is.
     pub fn pixel(&self, pixel: [u32; 2]) -> [f32; 2] {
         self.0.state().on_screen(pixel).into()
