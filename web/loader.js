@@ -28,6 +28,8 @@ function fail(kind, detail) {
   const size = memory === undefined ? "" : `\nmemory: ${Math.round(memory.buffer.byteLength / 2 ** 20)} MiB`;
   at("failure-detail").textContent = `${detail}${size}\n${BUILT.program}\n${navigator.userAgent}`;
   at("failure").dataset.kind = kind;
+  // What is left of the program rests from now on.
+  document.documentElement.dataset.ended = kind;
   // A view that ends the program might do so again.
   at("failure-afresh").hidden = location.hash.length < 2;
   at("failure-again").onclick = () => again(kind, false);
