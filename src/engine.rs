@@ -9,6 +9,7 @@ use crate::math::Vec2;
 use crate::scene::Ray;
 
 mod batches;
+mod coarse;
 mod cpu;
 mod device;
 mod frame;

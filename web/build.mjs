@@ -132,7 +132,7 @@ function write(stem, extension, bytes) {
 
 /** The page's files, in an empty folder. Only a folder that holds nothing but an earlier page is emptied. */
 function empty() {
-  const ours = (name) => /^(bdpt-explorer-[0-9a-f]{16}\.(js|wasm)|index\.html|licences|\.nojekyll)$/.test(name);
+  const ours = (name) => /^(bdpt-explorer-[0-9a-f]{16}\.(js|wasm|otf)|index\.html|licences|\.nojekyll)$/.test(name);
   const foreign = existsSync(OUT) ? readdirSync(OUT).filter((name) => !ours(name)) : [];
   if (foreign.length > 0) throw new Error(`${OUT} holds other files than a page built before (${foreign[0]}): choose another folder with --out`);
   rmSync(OUT, { recursive: true, force: true });
@@ -140,10 +140,10 @@ function empty() {
 }
 
 /** index.html: style and loader are in it, so that a failure of anything else can be told. */
-function page(script, program, length) {
+function page(script, program, font, length) {
   const read = (name) => readFileSync(join(ROOT, "web", name), "utf8");
   const config = JSON.stringify({ script, program, length });
-  const parts = { style: read("page.css"), texts: read("texts.js"), loader: read("loader.js"), config };
+  const parts = { style: read("page.css"), texts: read("texts.js"), loader: read("loader.js"), config, font };
   return read("index.html").replace(/\{\{(\w+)\}\}/g, (_, name) => {
     if (!(name in parts)) throw new Error(`web/index.html asks for {{${name}}}`);
     return parts[name];
@@ -173,7 +173,9 @@ function build() {
   const program = write("bdpt-explorer", "wasm", wasm);
   const glue = readFileSync(join(bound, "page.js"));
   const script = write("bdpt-explorer", "js", glue);
-  const html = page(script, program, wasm.length);
+  // The page has its own Chinese, too; a browser loads the font only where the system has none.
+  const font = write("bdpt-explorer", "otf", readFileSync(join(ROOT, "assets/fonts/interface-zh.otf")));
+  const html = page(script, program, font, wasm.length);
   writeFileSync(join(OUT, "index.html"), html);
   writeFileSync(join(OUT, ".nojekyll"), "");
   for (const name of ["LICENSE-APACHE", "LICENSE-MIT"]) cpSync(join(ROOT, name), join(OUT, "licences", name));

@@ -19,6 +19,7 @@ const TYPES = {
   ".wasm": "application/wasm",
   ".svg": "image/svg+xml",
   ".png": "image/png",
+  ".otf": "font/otf",
 };
 /** Names that change with the content never grow old. */
 const HASHED = /-[0-9a-f]{16}\.\w+$/;

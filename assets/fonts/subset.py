@@ -17,6 +17,7 @@ from fontTools.ttLib import TTCollection, TTFont
 
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCES = sorted(path for part in ("ui", "bdpt", "engine", "report") for path in (HERE.parent.parent / "src" / part).rglob("*.rs"))
+SOURCES.append(HERE.parent.parent / "web" / "texts.js")
 FAMILY = "Noto Sans CJK SC"
 # Symbol: the one it is made from, its size, how far it is lifted (of 1000), and its advance.
 MADE = {"⁺": ("+", 0.6, 330, 380), "⁻": ("−", 0.6, 330, 380), "⏷": ("▼", 0.5, 150, 520), "▾": ("▼", 0.5, 150, 520)}

@@ -86,8 +86,8 @@ pub(super) fn make_frame(session: &Session, generation: u64, hidden: StrategySet
         .collect();
 
     let thumbnails = thumbnails(&layers.iter().map(|(x, _, _)| *x).collect::<Vec<_>>(), small, &thumbnail_rows, [width, height], factor);
-    let at = pixel[1] as usize * width as usize + pixel[0] as usize;
     let inside = pixel[0] < width && pixel[1] < height;
+    let at = if inside { pixel[1] as usize * width as usize + pixel[0] as usize } else { 0 };
     let of_pixel = layers.iter().filter(|_| inside).map(|(strategy, layer, _)| (*strategy, layer.mean(&means, at))).collect();
     let pixel = PixelMeans { pixel, means: of_pixel };
     let stats = session.stats();

@@ -222,6 +222,11 @@ impl Session {
         self.fallback = Some(error.clone());
     }
 
+    /// Does the GPU render?
+    pub(super) fn on_gpu(&self) -> bool {
+        matches!(self.worker, Worker::Gpu(_))
+    }
+
     /// What is rendered.
     pub fn job(&self) -> &Job {
         &self.job

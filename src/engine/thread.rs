@@ -1,6 +1,7 @@
 //! A session as a task of its own, for a window: commands go in, frames come out, and nobody waits.
 
 use super::batches::Batches;
+use super::coarse::Coarse;
 use super::frame::{Frame, make_frame, make_picture};
 use super::picture::{Gallery, Picture, Source};
 use super::study::{Study, Wish};
@@ -68,6 +69,7 @@ impl Engine {
         let no_thread = |error| JobError(format!("cannot start the render thread: {error}"));
         let surveyor = Surveyor::start(job.clone(), Arc::clone(&gallery), Arc::clone(&wake)).map_err(no_thread)?;
         let worker = Worker {
+            coarse: first_look(&session),
             session,
             generation: 0,
             hidden: StrategySet::NONE,
@@ -190,6 +192,8 @@ impl Drop for Engine {
 
 struct Worker {
     session: Session,
+    /// What is shown before there is more, where it is worth it.
+    coarse: Option<Coarse>,
     generation: u64,
     hidden: StrategySet,
     batches: Batches,
@@ -231,7 +235,9 @@ impl Worker {
                 drop(sender.try_send(self.layers().await));
             }
             // The first look at something new should not be empty, and a restart has seen to that.
-            if !self.paused && !restarted {
+            if self.coarse.as_ref().is_some_and(|coarse| !coarse.is_done()) {
+                self.look().await;
+            } else if !self.paused && !restarted {
                 // A batch that is due ends with this pass.
                 let next = self.session.passes().saturating_add(1);
                 self.session.set_limit(if self.batches.is_due(next) { next } else { u32::MAX });
@@ -251,10 +257,22 @@ impl Worker {
         // It was checked when it was sent.
         if let Ok(session) = Session::for_window(job) {
             (self.session, self.generation) = (session, generation);
+            self.coarse = None;
             (self.batches, self.intervals) = (Batches::new(self.hidden), None);
             // Kernels that are compiled already come at once: then the first picture need not be the CPU's.
             self.session.look_at_preparations(SLICE).await;
-            self.session.advance(SLICE).await;
+            self.coarse = first_look(&self.session);
+            match self.coarse {
+                Some(_) => self.look().await,
+                None => self.session.advance(SLICE).await,
+            }
+        }
+    }
+
+    /// Takes the first look.
+    async fn look(&mut self) {
+        if let Some(coarse) = &mut self.coarse {
+            coarse.advance(SLICE).await;
         }
     }
 
@@ -286,12 +304,26 @@ impl Worker {
 
     async fn publish(&mut self) {
         self.session.gather().await;
-        let mut frame = make_frame(&self.session, self.generation, self.hidden, self.pixel);
+        // After an eighth of a pass there is a picture everywhere.
+        if self.session.passes() > 0 || self.session.pass_fraction() >= 0.125 {
+            self.coarse = None;
+        }
+        let (session, coarse) = (&self.session, self.coarse.as_ref().filter(|coarse| coarse.is_done()));
+        let mut frame = match coarse {
+            Some(coarse) => coarse.frame(session, self.generation, self.hidden),
+            None => make_frame(session, self.generation, self.hidden, self.pixel),
+        };
         frame.intervals = self.intervals.clone();
         let frame = Arc::new(frame);
-        let pictures = self.gallery.wanted(true).into_iter().filter_map(|source| make_picture(&self.session, source, &frame));
+        let make = |source| coarse.map_or_else(|| make_picture(session, source, &frame), |coarse| coarse.picture(source, &frame));
+        let pictures = self.gallery.wanted(true).into_iter().filter_map(make);
         pictures.for_each(|picture| self.gallery.put(picture));
         *self.frame.lock().unwrap_or_else(PoisonError::into_inner) = Some(frame);
         (self.wake)();
     }
+}
+
+/// Where nothing else renders meanwhile, and no graphics adapter is ready.
+fn first_look(session: &Session) -> Option<Coarse> {
+    (!task::THREADS && !session.on_gpu()).then(|| Coarse::of(session.job())).flatten()
 }

@@ -49,6 +49,9 @@ mod tests {
         for part in ["ui", "bdpt", "engine", "report"] {
             letters(&source.join(part), &mut found);
         }
+        // What the page says when there is no program.
+        let page = std::fs::read_to_string(source.join("../web/texts.js")).unwrap();
+        found.extend(page.chars().filter(|c| *c >= '\u{2e80}'));
         assert!(found.iter().filter(|c| **c >= '\u{4e00}').count() > 400, "there is Chinese in it");
         assert_eq!(missing(&ctx, &found), "", "run assets/fonts/subset.py, or choose another character");
         assert_eq!(missing(&ctx, &['\u{946b}', '\u{9f98}']).chars().count(), 2, "nobody says these, and they are not in the file");

@@ -131,7 +131,8 @@ struct Watcher {
     halved: bool,
     access: access::Access,
     lang: Option<Lang>,
-    alerts: String,
+    /// What the page says: of errors, and of all else.
+    said: [String; 2],
     drawn: bool,
     rendered: bool,
 }
@@ -145,7 +146,7 @@ impl Watcher {
             unknown,
             halved,
             lang: None,
-            alerts: String::new(),
+            said: Default::default(),
             drawn: false,
             rendered: false,
             access: access::Access::default(),
@@ -182,11 +183,13 @@ impl Watcher {
             self.lang = Some(lang);
             page::set_lang(lang);
         }
-        let alerts =
-            state.messages.iter().filter(|message| message.error).map(|message| message.text.as_str()).collect::<Vec<_>>().join("\n");
-        if alerts != self.alerts {
-            page::alert(&alerts);
-            self.alerts = alerts;
+        for (error, said) in [true, false].into_iter().zip(&mut self.said) {
+            let of_kind = state.messages.iter().filter(|message| message.error == error).map(|message| message.text.as_str());
+            let text = of_kind.collect::<Vec<_>>().join("\n");
+            if text != *said {
+                page::say(error, &text);
+                *said = text;
+            }
         }
         let rendered = app.live().frame().is_some();
         if !std::mem::replace(&mut self.drawn, true) {

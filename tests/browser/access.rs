@@ -30,7 +30,8 @@ fn the_keyboard_goes_to_the_window_out_of_it_and_back() {
         assert_eq!(page.summary().sample, "1");
         page.shot("out-of-the-canvas");
         // What has the focus can be seen.
-        let seen = page.eval("(() => { const box = document.activeElement.getBoundingClientRect(); return box.width > 40 && box.height > 12; })()");
+        let seen = page
+            .eval("(() => { const box = document.activeElement.getBoundingClientRect(); return box.width > 40 && box.height > 12; })()");
         assert_eq!(seen, true);
         // And back, by the first button there.
         page.press("Tab");
@@ -69,6 +70,9 @@ fn what_is_selected_is_said_in_html() {
         let sharp = page.eval("(() => { const c = document.querySelector('#canvas'); return [c.width, c.height, Math.round(c.clientWidth * devicePixelRatio), Math.round(c.clientHeight * devicePixelRatio)]; })()");
         assert_eq!((&sharp[0], &sharp[1]), (&sharp[2], &sharp[3]));
         // A phone's page is as wide as its screen: nothing has to be pushed aside.
-        assert_eq!(page.eval("document.documentElement.scrollWidth <= innerWidth && document.documentElement.scrollHeight <= innerHeight"), true);
+        assert_eq!(
+            page.eval("document.documentElement.scrollWidth <= innerWidth && document.documentElement.scrollHeight <= innerHeight"),
+            true
+        );
     }
 }

@@ -98,7 +98,9 @@ fn a_lost_device_is_replaced_and_said_and_nothing_else_is_lost() {
 #[test]
 fn a_program_that_fails_says_so_on_the_page_and_starts_again() {
     for mode in Mode::BOTH {
-        let Some(mut page) = Page::open("a_program_that_fails_says_so_on_the_page_and_starts_again", Visit::new(mode, LINK)) else { return };
+        let Some(mut page) = Page::open("a_program_that_fails_says_so_on_the_page_and_starts_again", Visit::new(mode, LINK)) else {
+            return;
+        };
         page.interactive();
         assert_eq!(page.eval("document.querySelector('#failure').checkVisibility()"), json!(false));
         page.eval("setTimeout(() => { throw new WebAssembly.RuntimeError('unreachable'); }); true");
@@ -125,7 +127,10 @@ fn without_any_graphics_the_page_explains() {
             page.until("document.querySelector('#failure').checkVisibility()");
             let text = page.eval("document.querySelector('#failure').innerText");
             let said = text.as_str().unwrap_or_default();
-            assert!(said.contains("WebGL 2") && said.contains(if locale == "en-US" { "hardware acceleration" } else { "硬件加速" }), "{said}");
+            assert!(
+                said.contains("WebGL 2") && said.contains(if locale == "en-US" { "hardware acceleration" } else { "硬件加速" }),
+                "{said}"
+            );
             page.shot(&format!("no-graphics-{locale}"));
             page.problems();
         }

@@ -57,7 +57,9 @@ fn a_share_link_round_trips() {
 fn a_broken_link_opens_the_first_scene_and_says_what_it_ignored() {
     for mode in Mode::BOTH {
         let link = "#v=1&scene=no-such-scene&size=1e9x&px=%%%&nonsense=1";
-        let Some(mut page) = Page::open("a_broken_link_opens_the_first_scene_and_says_what_it_ignored", Visit::new(mode, link)) else { return };
+        let Some(mut page) = Page::open("a_broken_link_opens_the_first_scene_and_says_what_it_ignored", Visit::new(mode, link)) else {
+            return;
+        };
         page.interactive();
         page.until("document.querySelector('#alerts').textContent.includes('nonsense')");
         let told = page.alerts();

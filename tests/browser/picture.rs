@@ -125,7 +125,8 @@ fn the_comparison_finds_what_is_wrong_and_only_that() {
     let job = |scene: &str| Job { size: [64, 64], ..Job::new(Arc::new(builtin::open(scene).expect("a built-in scene"))) };
     let none = StrategySet::NONE;
     let render = |job: &Job, spp: u32, hidden: &StrategySet| {
-        let mut session = Session::new(Job { weighted_layers: true, backend: bdpt_explorer::engine::Backend::Cpu, ..job.clone() }).expect("a job");
+        let mut session =
+            Session::new(Job { weighted_layers: true, backend: bdpt_explorer::engine::Backend::Cpu, ..job.clone() }).expect("a job");
         session.set_limit(spp);
         while session.passes() < spp {
             session.step(Duration::from_secs(10));

@@ -34,7 +34,9 @@ pub fn same_path(summary: &Summary, inspected: &Value) -> Result<(), String> {
         let contribution: Vec<f64> =
             entry["contribution"].as_array().expect("a colour").iter().map(|value| value.as_f64().expect("a number")).collect();
         let equal = |a: &[f64], b: &[f64]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-5 * b.abs());
-        if strategy != row.strategy.map(Some) || !equal(&numbers(&row.weight), &[weight]) || !equal(&numbers(&row.contribution), &contribution)
+        if strategy != row.strategy.map(Some)
+            || !equal(&numbers(&row.weight), &[weight])
+            || !equal(&numbers(&row.contribution), &contribution)
         {
             return Err(format!("on the page {row:?}, in the record {strategy:?} {weight} {contribution:?}"));
         }
@@ -102,7 +104,7 @@ fn a_tap_on_a_phone_shows_the_path_that_inspect_shows() {
 #[test]
 fn a_toggle_changes_the_image() {
     for mode in Mode::BOTH {
-        let link = "#v=1&scene=cornell-spheres&size=128x128&max=image&px=64,90&strategy=s1t2&draw=";
+        let link = "#v=1&scene=cornell-spheres&size=128x128&max=image&px=64,90&strategy=s1t2&draw=none";
         let twin = Twin::new(DESKTOP, link);
         let Some(mut page) = Page::open("a_toggle_changes_the_image", Visit::new(mode, link)) else { return };
         page.interactive();
@@ -111,7 +113,10 @@ fn a_toggle_changes_the_image() {
         page.sleep(1500);
         let ([left, top], [right, bottom]) = (twin.pixel([2, 2]), twin.pixel([125, 125]));
         let clip = Some([left, top, right - left, bottom - top]);
-        let (before, again) = (page.look(clip), { page.sleep(500); page.look(clip) });
+        let (before, again) = (page.look(clip), {
+            page.sleep(500);
+            page.look(clip)
+        });
         assert!(super::different(&before, &again) < 0.01, "the image stands still");
         page.press("h");
         page.sleep(1500);

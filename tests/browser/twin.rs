@@ -2,9 +2,9 @@
 
 use bdpt_explorer::ui::{App, SceneSource, Start};
 use eframe::egui::{self, Modifiers, PointerButton, Pos2, vec2};
+use egui_kittest::kittest::Queryable;
 use egui_kittest::wgpu::WgpuTestRenderer;
 use egui_kittest::{Harness, HarnessBuilder};
-use egui_kittest::kittest::Queryable;
 use std::time::{Duration, Instant};
 
 /// A window with the size of a page's that follows the same link.
@@ -23,9 +23,8 @@ impl Twin {
 
     fn open(builder: HarnessBuilder<App>, [width, height]: [u32; 2], link: &str) -> Self {
         let start = Start { source: SceneSource::Named("cornell".to_owned()), size: [64, 64] };
-        let mut window = builder
-            .with_size(vec2(width as f32, height as f32))
-            .build_eframe(|context| App::new(start, &context.egui_ctx, None));
+        let mut window =
+            builder.with_size(vec2(width as f32, height as f32)).build_eframe(|context| App::new(start, &context.egui_ctx, None));
         // There is no file system in a page.
         window.state_mut().state_mut().files.by_path = false;
         window.state_mut().open_link(link);

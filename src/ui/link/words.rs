@@ -35,17 +35,20 @@ impl<T: Copy + PartialOrd + FromStr + Display + LowerExp> Codec for Between<T> {
             Ok(value) if value < self.0 => Some((self.0, true)),
             Ok(value) if value > self.1 => Some((self.1, true)),
             Ok(value) => Some((value, false)),
-            // A whole number that has no place in its type.
-            Err(_) if large.fract() == 0.0 || large.is_infinite() => Some((if large < 0.0 { self.0 } else { self.1 }, true)),
+            // A whole number in powers of ten, or one that has no place in its type.
+            Err(_) if large.fract() == 0.0 || large.is_infinite() => match format!("{large:.0}").parse::<T>() {
+                Ok(value) if value >= self.0 && value <= self.1 => Some((value, false)),
+                _ => Some((if large < 0.0 { self.0 } else { self.1 }, true)),
+            },
             Err(_) => None,
         }
     }
 }
 
-/// A number with as few letters as tell it from all others.
+/// A number with enough digits to tell it from all others, and in powers of ten where that is much shorter.
 pub fn short<T: Display + LowerExp>(value: T) -> String {
     let (plain, powers) = (value.to_string(), format!("{value:e}"));
-    if powers.len() < plain.len() { powers } else { plain }
+    if powers.len() + 3 < plain.len() { powers } else { plain }
 }
 
 /// One of a few words.
@@ -226,6 +229,12 @@ mod tests {
             }
         }
         assert_eq!([real.write(&0.5), real.write(&1e-30), real.write(&-3e20)], ["0.5", "1e-30", "-3e20"]);
+        let whole = Between(0, u32::MAX);
+        for value in (0..u32::MAX).step_by(99_991).chain([1000, 30_000, 1_000_000, 4_000_000_000]) {
+            assert_eq!(whole.read(&whole.write(&value)), Some((value, false)));
+        }
+        assert_eq!([whole.write(&30_000), whole.write(&1_000_000)], ["30000", "1e6"]);
+        assert_eq!([whole.read("1e3"), whole.read("4294967296")], [Some((1000, false)), Some((u32::MAX, true))]);
         assert_eq!(Between(0.0, f32::INFINITY).read("inf"), Some((f32::INFINITY, false)));
     }
 

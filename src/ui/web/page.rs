@@ -64,10 +64,11 @@ pub fn note(name: &str, value: &str) {
     root.map(|root| root.set_attribute(&format!("data-{name}"), value));
 }
 
-/// Says what has gone wrong to those who listen to the page; nothing, if all is well.
-pub fn alert(text: &str) {
+/// Says something to those who listen to the page: at once what has gone wrong, when it suits all else; nothing, if there is nothing.
+pub fn say(error: bool, text: &str) {
+    let region = element(if error { "alerts" } else { "notes" });
     // A region that is written again is read out again.
-    if let Some(region) = element("alerts").filter(|region| region.text_content().as_deref() != Some(text)) {
+    if let Some(region) = region.filter(|region| region.text_content().as_deref() != Some(text)) {
         region.set_text_content(Some(text));
     }
 }
