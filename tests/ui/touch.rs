@@ -43,19 +43,22 @@ fn pinch(window: &mut Harness<'static, App>, middle: Pos2, [from, to]: [f32; 2],
     window.run_steps(3);
 }
 
+/// Nothing moves the image any more: not the larger targets, and no numbers that grow with the samples.
+fn still(window: &mut Harness<'static, App>) {
+    window.state_mut().state_mut().touch = true;
+    until(window, "a whole pass", |app| app.live().first_pass().is_none());
+    window.state_mut().state_mut().paused = true;
+    window.run_steps(4);
+    std::thread::sleep(Duration::from_millis(200));
+    window.run_steps(4);
+}
+
 /// Without marks over it, so that a tap is about the pixel.
 fn bare() -> Harness<'static, App> {
     let mut window = cornell();
     let shown = &mut window.state_mut().state_mut().prefs.shown;
     (shown.eye, shown.light, shown.connections, shown.blocked, shown.splats) = (false, false, false, false, false);
-    // Large targets first: they move the image.
-    window.state_mut().state_mut().touch = true;
-    until(&mut window, "a whole pass", |app| app.live().first_pass().is_none());
-    // And what grows with the number of samples: it moves the image, too.
-    window.state_mut().state_mut().paused = true;
-    window.run_steps(4);
-    std::thread::sleep(Duration::from_millis(200));
-    window.run_steps(4);
+    still(&mut window);
     window
 }
 
@@ -114,8 +117,7 @@ fn a_pinch_zooms_about_its_middle_and_picks_nothing() {
 #[test]
 fn a_long_tap_picks_the_pixel_below_a_mark() {
     let mut window = cornell();
-    window.state_mut().state_mut().touch = true;
-    window.run_steps(4);
+    still(&mut window);
     let record = window.state().live().record(window.state().state()).expect("a record").clone();
     let [x, y] = record.pixel;
     // z₁ is what the pixel shows: its mark is in the crosshair.
