@@ -156,4 +156,12 @@ async function start() {
   memory = program.memory;
 }
 
+// Where a browser's developer tools imitate a phone, sizes in device pixels are wrong: the program goes by the others then.
+new ResizeObserver(([entry], observer) => {
+  observer.disconnect();
+  const given = entry.devicePixelContentBoxSize?.[0].inlineSize;
+  const right = entry.contentBoxSize?.[0].inlineSize * devicePixelRatio;
+  if (Math.abs(given - right) > 2) delete ResizeObserverEntry.prototype.devicePixelContentBoxSize;
+}).observe(at("stage"));
+
 start().catch((error) => (error instanceof Failure ? fail(error.kind, error.message) : uncaught(error, undefined)));
