@@ -195,7 +195,8 @@ fn a_link_is_copied_by_button_and_key_and_that_is_said_for_a_moment() {
     window.run_steps(2);
     let kept = window.state().state().compare.kept.first().map(|kept| bdpt_explorer::ui::state::Source::Kept(kept.id));
     window.state_mut().state_mut().compare.b = kept;
-    window.key_press(Key::U);
+    let (key, modifiers) = (Key::U, Modifiers::NONE);
+    window.event(egui::Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers });
     let text = copied(&mut window).expect("a copy");
     assert_eq!(text, format!("https://example.org/x/{}", window.state().link()));
     assert!(text.contains("&n=3"));
