@@ -7,6 +7,22 @@
 #![cfg(not(target_arch = "wasm32"))]
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
+/// A claim about a page is a test with WebGPU, and one without.
+macro_rules! in_both {
+    ($claim:ident) => {
+        mod $claim {
+            #[test]
+            fn with_webgl() {
+                super::$claim(super::Mode::WebGl);
+            }
+            #[test]
+            fn with_webgpu() {
+                super::$claim(super::Mode::WebGpu);
+            }
+        }
+    };
+}
+
 #[path = "browser/access.rs"]
 mod access;
 #[path = "browser/chinese.rs"]

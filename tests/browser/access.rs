@@ -13,43 +13,41 @@ fn until_sample(page: &mut Page, sample: u32) {
     page.until(&format!("document.querySelector('#summary').dataset.sample === '{sample}'"));
 }
 
-#[test]
-fn the_keyboard_goes_to_the_window_out_of_it_and_back() {
-    for mode in Mode::BOTH {
-        let Some(mut page) = Page::open("the_keyboard_goes_to_the_window_out_of_it_and_back", Visit::new(mode, LINK)) else { return };
-        page.interactive();
-        until_sample(&mut page, 0);
-        assert_eq!(page.eval(IN_WINDOW), true, "the window has the keyboard at once");
-        page.press("n");
-        until_sample(&mut page, 1);
-        // Out of it: its keys are no longer heard.
-        page.press("F6");
-        page.until("document.querySelector('#summary').contains(document.activeElement)");
-        page.press("n");
-        page.sleep(1200);
-        assert_eq!(page.summary().sample, "1");
-        page.shot("out-of-the-canvas");
-        // What has the focus can be seen.
-        let seen = page
-            .eval("(() => { const box = document.activeElement.getBoundingClientRect(); return box.width > 40 && box.height > 12; })()");
-        assert_eq!(seen, true);
-        // And back, by the first button there.
-        page.press("Tab");
-        assert_eq!(page.eval("document.activeElement.tagName"), "BUTTON");
-        page.press("Enter");
-        page.until(IN_WINDOW);
-        page.press("n");
-        until_sample(&mut page, 2);
-        // A pointer that comes to the window brings the keyboard along.
-        page.eval("document.activeElement.blur(); true");
-        assert_eq!(page.eval(IN_WINDOW), false);
-        page.ask(&json!({ "do": "move", "x": 640, "y": 2 }));
-        page.ask(&json!({ "do": "move", "x": 640, "y": 400 }));
-        page.eval("document.querySelector('#stage').dispatchEvent(new PointerEvent('pointerenter', { pointerType: 'mouse' })); true");
-        page.until(IN_WINDOW);
-        page.press("Shift+n");
-        until_sample(&mut page, 1);
-    }
+in_both!(the_keyboard_goes_to_the_window_out_of_it_and_back);
+fn the_keyboard_goes_to_the_window_out_of_it_and_back(mode: Mode) {
+    let Some(mut page) = Page::open("the_keyboard_goes_to_the_window_out_of_it_and_back", Visit::new(mode, LINK)) else { return };
+    page.interactive();
+    until_sample(&mut page, 0);
+    assert_eq!(page.eval(IN_WINDOW), true, "the window has the keyboard at once");
+    page.press("n");
+    until_sample(&mut page, 1);
+    // Out of it: its keys are no longer heard.
+    page.press("F6");
+    page.until("document.querySelector('#summary').contains(document.activeElement)");
+    page.press("n");
+    page.sleep(1200);
+    assert_eq!(page.summary().sample, "1");
+    page.shot("out-of-the-canvas");
+    // What has the focus can be seen.
+    let seen =
+        page.eval("(() => { const box = document.activeElement.getBoundingClientRect(); return box.width > 40 && box.height > 12; })()");
+    assert_eq!(seen, true);
+    // And back, by the first button there.
+    page.press("Tab");
+    assert_eq!(page.eval("document.activeElement.tagName"), "BUTTON");
+    page.press("Enter");
+    page.until(IN_WINDOW);
+    page.press("n");
+    until_sample(&mut page, 2);
+    // A pointer that comes to the window brings the keyboard along.
+    page.eval("document.activeElement.blur(); true");
+    assert_eq!(page.eval(IN_WINDOW), false);
+    page.ask(&json!({ "do": "move", "x": 640, "y": 2 }));
+    page.ask(&json!({ "do": "move", "x": 640, "y": 400 }));
+    page.eval("document.querySelector('#stage').dispatchEvent(new PointerEvent('pointerenter', { pointerType: 'mouse' })); true");
+    page.until(IN_WINDOW);
+    page.press("Shift+n");
+    until_sample(&mut page, 1);
 }
 
 #[test]

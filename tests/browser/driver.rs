@@ -20,9 +20,6 @@ pub enum Mode {
 }
 
 impl Mode {
-    /// The two in which the program runs.
-    pub const BOTH: [Self; 2] = [Self::WebGpu, Self::WebGl];
-
     /// As the driver calls it.
     pub const fn name(self) -> &'static str {
         match self {

@@ -17,8 +17,8 @@ fn parts(glb: &[u8], name: &str) -> (Vec<u8>, Vec<u8>) {
     (description.to_string().into_bytes(), glb[28 + json..28 + json + length(20 + json)].to_vec())
 }
 
-#[test]
-fn a_dropped_scene_is_rendered_a_broken_one_refused_and_nothing_leaves_the_machine() {
+in_both!(a_dropped_scene_is_rendered_a_broken_one_refused_and_nothing_leaves_the_machine);
+fn a_dropped_scene_is_rendered_a_broken_one_refused_and_nothing_leaves_the_machine(mode: Mode) {
     let folder = tempfile::tempdir().expect("a folder");
     let at = |name: &str| folder.path().join(name);
     let glb = std::fs::read(MODEL).expect("a scene");
@@ -29,53 +29,51 @@ fn a_dropped_scene_is_rendered_a_broken_one_refused_and_nothing_leaves_the_machi
         std::fs::write(at(name), bytes).expect("a file");
     }
     let path = |name: &str| at(name).display().to_string();
-    for mode in Mode::BOTH {
-        let test = "a_dropped_scene_is_rendered_a_broken_one_refused_and_nothing_leaves_the_machine";
-        let Some(mut page) = Page::open(test, Visit::new(mode, LINK)) else { return };
-        page.interactive();
-        page.until_pixel([64, 90]);
+    let test = "a_dropped_scene_is_rendered_a_broken_one_refused_and_nothing_leaves_the_machine";
+    let Some(mut page) = Page::open(test, Visit::new(mode, LINK)) else { return };
+    page.interactive();
+    page.until_pixel([64, 90]);
+    page.until_spp(1.0);
+    let pixel = |page: &mut Page| -> [u32; 2] {
+        let summary = page.summary();
+        let mut parts = summary.pixel.split(',').map(|part| part.parse().expect("a number"));
+        [parts.next().expect("x"), parts.next().expect("y")]
+    };
+    let shows = |page: &mut Page, scene: &str, name: &str| {
+        page.until(&format!("document.querySelector('#summary').textContent.includes('{name}')"));
+        page.sleep(1200);
         page.until_spp(1.0);
-        let pixel = |page: &mut Page| -> [u32; 2] {
-            let summary = page.summary();
-            let mut parts = summary.pixel.split(',').map(|part| part.parse().expect("a number"));
-            [parts.next().expect("x"), parts.next().expect("y")]
-        };
-        let shows = |page: &mut Page, scene: &str, name: &str| {
-            page.until(&format!("document.querySelector('#summary').textContent.includes('{name}')"));
-            page.sleep(1200);
-            page.until_spp(1.0);
-            let at = pixel(page);
-            same_path(&page.summary(), &inspect(scene, at, 0)).unwrap_or_else(|error| panic!("{mode:?}, {scene}: {error}"));
-        };
-        shows(&mut page, "cornell", "cornell");
-        let loaded = page.ask(&serde_json::json!({ "do": "requests" })).as_array().map_or(0, Vec::len);
-        // A broken one: what was there stays.
-        page.drop_files(&[&at("broken.glb")]);
-        page.until("document.querySelector('#alerts').textContent.includes('broken.glb')");
-        let told = page.alerts();
-        assert!(told.lines().count() == 1 && !told.contains("panic"), "{told}");
-        shows(&mut page, "cornell", "cornell");
-        page.shot("refused");
-        // A whole one.
-        page.drop_files(&[&at("my model.glb")]);
-        shows(&mut page, &path("my model.glb"), "my model");
-        assert!(!page.alerts().contains("broken.glb"), "what was said of the other file is past: {}", page.alerts());
-        page.shot("dropped");
-        // A description without its numbers says what is missing; with them it is the same scene.
-        page.drop_files(&[&at("apart.gltf")]);
-        page.until("document.querySelector('#alerts').textContent.includes('the numbers.bin')");
-        page.drop_files(&[&at("apart.gltf"), &at("the numbers.bin")]);
-        shows(&mut page, &path("apart.gltf"), "apart");
-        // All that was ever asked for is the page itself, and nothing was sent.
-        let requests = page.ask(&serde_json::json!({ "do": "requests" }));
-        let requests = requests.as_array().expect("a list");
-        assert_eq!(requests.len(), loaded, "{requests:?}");
-        let address = page.address.clone();
-        for request in requests {
-            let url = request["url"].as_str().expect("an address");
-            let own = url.starts_with(&address) || url.starts_with("data:") || url.starts_with("blob:");
-            assert!(own && request["method"] == "GET" && request["bytes"] == 0, "{request}");
-        }
+        let at = pixel(page);
+        same_path(&page.summary(), &inspect(scene, at, 0)).unwrap_or_else(|error| panic!("{mode:?}, {scene}: {error}"));
+    };
+    shows(&mut page, "cornell", "cornell");
+    let loaded = page.ask(&serde_json::json!({ "do": "requests" })).as_array().map_or(0, Vec::len);
+    // A broken one: what was there stays.
+    page.drop_files(&[&at("broken.glb")]);
+    page.until("document.querySelector('#alerts').textContent.includes('broken.glb')");
+    let told = page.alerts();
+    assert!(told.lines().count() == 1 && !told.contains("panic"), "{told}");
+    shows(&mut page, "cornell", "cornell");
+    page.shot("refused");
+    // A whole one.
+    page.drop_files(&[&at("my model.glb")]);
+    shows(&mut page, &path("my model.glb"), "my model");
+    assert!(!page.alerts().contains("broken.glb"), "what was said of the other file is past: {}", page.alerts());
+    page.shot("dropped");
+    // A description without its numbers says what is missing; with them it is the same scene.
+    page.drop_files(&[&at("apart.gltf")]);
+    page.until("document.querySelector('#alerts').textContent.includes('the numbers.bin')");
+    page.drop_files(&[&at("apart.gltf"), &at("the numbers.bin")]);
+    shows(&mut page, &path("apart.gltf"), "apart");
+    // All that was ever asked for is the page itself, and nothing was sent.
+    let requests = page.ask(&serde_json::json!({ "do": "requests" }));
+    let requests = requests.as_array().expect("a list");
+    assert_eq!(requests.len(), loaded, "{requests:?}");
+    let address = page.address.clone();
+    for request in requests {
+        let url = request["url"].as_str().expect("an address");
+        let own = url.starts_with(&address) || url.starts_with("data:") || url.starts_with("blob:");
+        assert!(own && request["method"] == "GET" && request["bytes"] == 0, "{request}");
     }
     assert!(Path::new(MODEL).exists());
 }

@@ -42,81 +42,78 @@ fn work(page: &mut Page) -> u64 {
     page.eval("window.work").as_u64().expect("a count") - before
 }
 
-#[test]
-fn a_page_that_nobody_looks_at_does_not_render() {
-    for mode in Mode::BOTH {
-        let visit = Visit { init: vec![HIDE.to_owned()], ..Visit::new(mode, LINK) };
-        let Some(mut page) = Page::open("a_page_that_nobody_looks_at_does_not_render", visit) else { return };
-        page.interactive();
-        page.until_spp(2.0);
-        // The control: it does render while somebody looks.
-        let shown = work(&mut page);
-        page.eval("window.look(true)");
-        page.sleep(1500);
-        let hidden = work(&mut page);
-        let spp = page.summary().spp;
-        page.sleep(1000);
-        assert_eq!(page.summary().spp, spp, "{mode:?}: the samples stand still");
-        page.eval("window.look(false)");
-        page.until_spp(spp + 1.0);
-        let again = work(&mut page);
-        // A page that is away still looks now and then whether it is.
-        assert!(hidden <= 2 && shown > 20 && again > 20, "{mode:?}: shown {shown}, hidden {hidden}, shown again {again}");
-    }
+in_both!(a_page_that_nobody_looks_at_does_not_render);
+fn a_page_that_nobody_looks_at_does_not_render(mode: Mode) {
+    let visit = Visit { init: vec![HIDE.to_owned()], ..Visit::rendered_by_gpu(mode, LINK) };
+    let Some(mut page) = Page::open("a_page_that_nobody_looks_at_does_not_render", visit) else { return };
+    page.interactive();
+    page.until_renderer(if mode == Mode::WebGpu { "webgpu" } else { "cpu" });
+    page.until_spp(2.0);
+    // The control: it does render while somebody looks.
+    let shown = work(&mut page);
+    page.eval("window.look(true)");
+    page.sleep(1500);
+    let hidden = work(&mut page);
+    let spp = page.summary().spp;
+    page.sleep(1000);
+    assert_eq!(page.summary().spp, spp, "{mode:?}: the samples stand still");
+    page.eval("window.look(false)");
+    page.until_spp(spp + 1.0);
+    let again = work(&mut page);
+    // A page that is away still looks now and then whether it is.
+    assert!(hidden <= 2 && shown > 20 && again > 20, "{mode:?}: shown {shown}, hidden {hidden}, shown again {again}");
 }
 
-#[test]
-fn a_lost_device_is_replaced_and_said_and_nothing_else_is_lost() {
-    for mode in Mode::BOTH {
-        let visit = Visit { init: vec![KEEP.to_owned()], ..Visit::new(mode, LINK) };
-        let Some(mut page) = Page::open("a_lost_device_is_replaced_and_said_and_nothing_else_is_lost", visit) else { return };
-        page.interactive();
-        page.until_spp(2.0);
-        let before = page.summary();
-        let canvas = "window.old = document.querySelector('#canvas'); true";
-        page.eval(canvas);
-        page.eval(match mode {
-            Mode::WebGpu => "window.devices.forEach((device) => device.destroy()); window.devices.length > 0",
-            _ => "window.old.getContext('webgl2').getExtension('WEBGL_lose_context').loseContext(); true",
-        });
-        page.until("document.querySelector('#canvas') !== null && document.querySelector('#canvas') !== window.old");
-        page.until("document.querySelector('#alerts').textContent !== ''");
-        let told = page.alerts();
-        assert!(told.to_lowercase().contains("graphics"), "{told}");
-        page.until_spp(before.spp + 2.0);
-        page.sleep(1000);
-        let after = page.summary();
-        assert_eq!((&after.pixel, &after.sample, &after.renderer), (&before.pixel, &before.sample, &before.renderer), "{mode:?}: {told}");
-        let colours = super::colours(&page.look(None));
-        assert!(colours > 500, "{mode:?}: the new canvas shows {colours} colours");
-        page.shot("after-loss");
-        // Chromium itself reports a lost context.
-        page.problems();
-    }
+in_both!(a_lost_device_is_replaced_and_said_and_nothing_else_is_lost);
+fn a_lost_device_is_replaced_and_said_and_nothing_else_is_lost(mode: Mode) {
+    let visit = Visit { init: vec![KEEP.to_owned()], ..Visit::rendered_by_gpu(mode, LINK) };
+    let Some(mut page) = Page::open("a_lost_device_is_replaced_and_said_and_nothing_else_is_lost", visit) else { return };
+    page.interactive();
+    page.until_renderer(if mode == Mode::WebGpu { "webgpu" } else { "cpu" });
+    page.until_spp(2.0);
+    let before = page.summary();
+    let canvas = "window.old = document.querySelector('#canvas'); true";
+    page.eval(canvas);
+    page.eval(match mode {
+        Mode::WebGpu => "window.devices.forEach((device) => device.destroy()); window.devices.length > 0",
+        _ => "window.old.getContext('webgl2').getExtension('WEBGL_lose_context').loseContext(); true",
+    });
+    page.until("document.querySelector('#canvas') !== null && document.querySelector('#canvas') !== window.old");
+    page.until("document.querySelector('#notes').textContent.includes('restarted')");
+    let told = page.notes();
+    assert!(told.to_lowercase().contains("graphics"), "{told}");
+    page.until_renderer(&before.renderer);
+    page.until_spp(before.spp + 2.0);
+    page.sleep(1000);
+    let after = page.summary();
+    assert_eq!((&after.pixel, &after.sample, &after.renderer), (&before.pixel, &before.sample, &before.renderer), "{mode:?}: {told}");
+    let colours = super::colours(&page.look(None));
+    assert!(colours > 500, "{mode:?}: the new canvas shows {colours} colours");
+    page.shot("after-loss");
+    // Chromium itself reports a lost context.
+    page.problems();
 }
 
-#[test]
-fn a_program_that_fails_says_so_on_the_page_and_starts_again() {
-    for mode in Mode::BOTH {
-        let Some(mut page) = Page::open("a_program_that_fails_says_so_on_the_page_and_starts_again", Visit::new(mode, LINK)) else {
-            return;
-        };
-        page.interactive();
-        assert_eq!(page.eval("document.querySelector('#failure').checkVisibility()"), json!(false));
-        page.eval("setTimeout(() => { throw new WebAssembly.RuntimeError('unreachable'); }); true");
-        page.until("document.querySelector('#failure').checkVisibility()");
-        let text = page.eval("document.querySelector('#failure').innerText");
-        assert!(text.as_str().is_some_and(|text| text.contains("memory") && text.contains("Start again")), "{text}");
-        assert_eq!(page.eval("[document.activeElement.id, document.querySelector('#failure').role]"), json!(["failure-again", "alert"]));
-        page.shot("failure");
-        assert!(page.problems().iter().all(|problem| problem.contains("unreachable")), "only what was thrown");
-        // What starts again needs less memory, and shows the same.
-        page.press("Enter");
-        page.until("document.querySelector('#failure').hidden && performance.getEntriesByName('bdpt:interactive').length > 0");
-        page.until_spp(1.0);
-        assert_eq!(page.summary().sample, "3");
-        assert!(page.eval("location.hash").as_str().is_some_and(|hash| hash.contains("size=64x64")), "half the size");
-    }
+in_both!(a_program_that_fails_says_so_on_the_page_and_starts_again);
+fn a_program_that_fails_says_so_on_the_page_and_starts_again(mode: Mode) {
+    let Some(mut page) = Page::open("a_program_that_fails_says_so_on_the_page_and_starts_again", Visit::new(mode, LINK)) else {
+        return;
+    };
+    page.interactive();
+    assert_eq!(page.eval("document.querySelector('#failure').checkVisibility()"), json!(false));
+    page.eval("setTimeout(() => { throw new WebAssembly.RuntimeError('unreachable'); }); true");
+    page.until("document.querySelector('#failure').checkVisibility()");
+    let text = page.eval("document.querySelector('#failure').innerText");
+    assert!(text.as_str().is_some_and(|text| text.contains("memory") && text.contains("Start again")), "{text}");
+    assert_eq!(page.eval("[document.activeElement.id, document.querySelector('#failure').role]"), json!(["failure-again", "alert"]));
+    page.shot("failure");
+    assert!(page.problems().iter().all(|problem| problem.contains("unreachable")), "only what was thrown");
+    // What starts again needs less memory, and shows the same.
+    page.press("Enter");
+    page.until("document.querySelector('#failure').hidden && performance.getEntriesByName('bdpt:interactive').length > 0");
+    page.until_spp(1.0);
+    assert_eq!(page.summary().sample, "3");
+    assert!(page.eval("location.hash").as_str().is_some_and(|hash| hash.contains("size=64x64")), "half the size");
 }
 
 #[test]

@@ -37,8 +37,13 @@ pub const PHONE: [u32; 2] = [390, 844];
 impl Visit {
     /// A desktop's browser that opens a link.
     pub fn new(mode: Mode, tail: impl Into<String>) -> Self {
-        let (fonts, init) = (Fonts::System, Vec::new());
-        Self { mode, fonts, prefix: "", tail: tail.into(), insecure: false, size: DESKTOP, phone: false, locale: "en-US", init }
+        let (fonts, init, tail) = (Fonts::System, Vec::new(), tail.into());
+        Self { mode, fonts, prefix: "", tail, insecure: false, size: DESKTOP, phone: false, locale: "en-US", init }
+    }
+
+    /// The same, and the GPU renders if there is one: by itself the program takes none that runs on the processor.
+    pub fn rendered_by_gpu(mode: Mode, link: &str) -> Self {
+        Self::new(mode, if mode == Mode::WebGpu { format!("?renderer=webgpu{link}") } else { link.to_owned() })
     }
 
     /// The same on a telephone.
@@ -139,7 +144,7 @@ impl Page {
 
     /// Waits for an expression to be true; returns its value.
     pub fn until(&mut self, script: &str) -> Value {
-        self.ask(&json!({ "do": "wait", "script": script, "timeout": 90_000 }))
+        self.ask(&json!({ "do": "wait", "script": script, "timeout": 180_000 }))
     }
 
     /// Waits for the first frame that can be clicked.
@@ -170,6 +175,11 @@ impl Page {
     /// Waits for so many samples per pixel.
     pub fn until_spp(&mut self, spp: f64) {
         self.until(&format!("Number({SUMMARY}?.spp) >= {spp}"));
+    }
+
+    /// Waits until this one renders: "webgpu" or "cpu".
+    pub fn until_renderer(&mut self, name: &str) {
+        self.until(&format!("document.querySelector('#summary').dataset.renderer === '{name}'"));
     }
 
     /// Waits until the summary is of this pixel.
@@ -217,6 +227,11 @@ impl Page {
     /// The page's errors as those hear them who listen to it.
     pub fn alerts(&mut self) -> String {
         self.eval("document.querySelector('#alerts').textContent").as_str().unwrap_or_default().to_owned()
+    }
+
+    /// What the program tells in the page that is no error.
+    pub fn notes(&mut self) -> String {
+        self.eval("document.querySelector('#notes').textContent").as_str().unwrap_or_default().to_owned()
     }
 
     /// A picture of the page: kept, to be looked at, where `BDPT_SCREENSHOT_DIR` says.

@@ -42,40 +42,39 @@ impl Menu {
     }
 }
 
-#[test]
-fn the_image_agrees_with_render_and_one_without_a_strategy_does_not() {
+in_both!(the_image_agrees_with_render_and_one_without_a_strategy_does_not);
+fn the_image_agrees_with_render_and_one_without_a_strategy_does_not(mode: Mode) {
     let job = Job { size: [128, 128], ..Job::new(Arc::new(builtin::open("cornell").expect("a built-in scene"))) };
     let hidden: StrategySet = [SELECTED].into_iter().collect();
-    let mut references: Option<[Reference; 2]> = None;
-    for mode in Mode::BOTH {
-        let Some(mut page) = Page::open("the_image_agrees_with_render_and_one_without_a_strategy_does_not", Visit::new(mode, LINK)) else {
-            return;
-        };
-        let [whole, without] = references.get_or_insert_with(|| [StrategySet::NONE, hidden].map(|hidden| Reference::new(&job, 8, &hidden)));
-        let (menu, folder) = (Menu::new(LINK, &[ExportText::Radiance]), tempfile::tempdir().expect("a folder"));
-        page.interactive();
-        page.until_spp(16.0);
-        page.press("p");
-        page.sleep(1500);
-        let spp = page.summary().spp;
-        let picture = Picture::read(&menu.save(&mut page, 0, folder.path()));
-        let verdict = whole.compare(&picture, spp);
-        super::report(&format!("{}: the image after {spp:.1} samples, against `render`: {verdict:?}", mode.name()));
-        assert!(verdict.agrees(), "{mode:?}: {verdict:?}");
-        // The controls: brighter by 5 %, and, in the page itself, a strategy hidden.
-        let brighter = whole.compare(&picture.times(1.05), spp);
-        assert!(!brighter.agrees(), "{mode:?}: {brighter:?}");
-        page.press("h");
-        page.sleep(1000);
-        let picture = Picture::read(&menu.save(&mut page, 0, folder.path()));
-        let (against_whole, against_same) = (whole.compare(&picture, spp), without.compare(&picture, spp));
-        assert!(!against_whole.agrees() && against_same.agrees(), "{mode:?}, hidden: {against_whole:?} {against_same:?}");
-        page.shot("saved");
-    }
+    let Some(mut page) = Page::open("the_image_agrees_with_render_and_one_without_a_strategy_does_not", Visit::rendered_by_gpu(mode, LINK))
+    else {
+        return;
+    };
+    let [whole, without] = [StrategySet::NONE, hidden].map(|hidden| Reference::new(&job, 8, &hidden));
+    let (menu, folder) = (Menu::new(LINK, &[ExportText::Radiance]), tempfile::tempdir().expect("a folder"));
+    page.interactive();
+    page.until_renderer(if mode == Mode::WebGpu { "webgpu" } else { "cpu" });
+    page.until_spp(16.0);
+    page.press("p");
+    page.sleep(1500);
+    let spp = page.summary().spp;
+    let picture = Picture::read(&menu.save(&mut page, 0, folder.path()));
+    let verdict = whole.compare(&picture, spp);
+    super::report(&format!("{}: the image after {spp:.1} samples, against `render`: {verdict:?}", mode.name()));
+    assert!(verdict.agrees(), "{mode:?}: {verdict:?}");
+    // The controls: brighter by 5 %, and, in the page itself, a strategy hidden.
+    let brighter = whole.compare(&picture.times(1.05), spp);
+    assert!(!brighter.agrees(), "{mode:?}: {brighter:?}");
+    page.press("h");
+    page.sleep(1000);
+    let picture = Picture::read(&menu.save(&mut page, 0, folder.path()));
+    let (against_whole, against_same) = (whole.compare(&picture, spp), without.compare(&picture, spp));
+    assert!(!against_whole.agrees() && against_same.agrees(), "{mode:?}, hidden: {against_whole:?} {against_same:?}");
+    page.shot("saved");
 }
 
-#[test]
-fn everything_can_be_saved_and_the_sample_is_the_one_that_inspect_prints() {
+in_both!(everything_can_be_saved_and_the_sample_is_the_one_that_inspect_prints);
+fn everything_can_be_saved_and_the_sample_is_the_one_that_inspect_prints(mode: Mode) {
     const KINDS: [(ExportText, &str); 7] = [
         (ExportText::PictureAsSeen, "cornell.png"),
         (ExportText::Radiance, "cornell.exr"),
@@ -85,35 +84,33 @@ fn everything_can_be_saved_and_the_sample_is_the_one_that_inspect_prints() {
         (ExportText::StrategiesCsv, "cornell-64-90-0-strategies.csv"),
         (ExportText::VerticesCsv, "cornell-64-90-0-vertices.csv"),
     ];
-    for mode in Mode::BOTH {
-        let test = "everything_can_be_saved_and_the_sample_is_the_one_that_inspect_prints";
-        let Some(mut page) = Page::open(test, Visit::new(mode, LINK)) else { return };
-        let (menu, folder) = (Menu::new(LINK, &KINDS.map(|(text, _)| text)), tempfile::tempdir().expect("a folder"));
-        page.interactive();
-        page.until_spp(2.0);
-        let mut paths = Vec::new();
-        for (index, (_, name)) in KINDS.into_iter().enumerate() {
-            let path = menu.save(&mut page, index, folder.path());
-            assert_eq!(path.file_name().and_then(|name| name.to_str()), Some(name));
-            paths.push(path);
-        }
-        let read = |index: usize| std::fs::read(&paths[index]).expect("the file");
-        let png = image::open(&paths[0]).expect("a picture");
-        assert_eq!((png.width(), png.height()), (128, 128));
-        assert_eq!(Picture::read(&paths[1]).size, [128, 128]);
-        assert!(read(2).windows(15).any(|bytes| bytes == b"weighted.s1t2.R"));
-        let json: serde_json::Value = serde_json::from_slice(&read(3)).expect("JSON");
-        equal(&json, &inspect("cornell", [64, 90], 0), "").unwrap_or_else(|error| panic!("{mode:?}: {error}"));
-        equal(&json, &inspect("cornell", [64, 90], 1), "").expect_err("another sample");
-        roxmltree::Document::parse(&String::from_utf8(read(4)).expect("UTF-8")).expect("an SVG");
-        for (index, args) in [(5, "--csv"), (6, "--vertices-csv")] {
-            let native = folder.path().join("native.csv");
-            let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_bdpt-explorer"));
-            command.args(["inspect", "cornell", "--pixel", "64,90", "--size", "128x128", args]).arg(&native);
-            assert!(command.output().expect("the program").status.success());
-            let lines = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8").lines().count();
-            assert_eq!(lines(read(index)), lines(std::fs::read(&native).expect("the table")));
-        }
+    let test = "everything_can_be_saved_and_the_sample_is_the_one_that_inspect_prints";
+    let Some(mut page) = Page::open(test, Visit::new(mode, LINK)) else { return };
+    let (menu, folder) = (Menu::new(LINK, &KINDS.map(|(text, _)| text)), tempfile::tempdir().expect("a folder"));
+    page.interactive();
+    page.until_spp(2.0);
+    let mut paths = Vec::new();
+    for (index, (_, name)) in KINDS.into_iter().enumerate() {
+        let path = menu.save(&mut page, index, folder.path());
+        assert_eq!(path.file_name().and_then(|name| name.to_str()), Some(name));
+        paths.push(path);
+    }
+    let read = |index: usize| std::fs::read(&paths[index]).expect("the file");
+    let png = image::open(&paths[0]).expect("a picture");
+    assert_eq!((png.width(), png.height()), (128, 128));
+    assert_eq!(Picture::read(&paths[1]).size, [128, 128]);
+    assert!(read(2).windows(15).any(|bytes| bytes == b"weighted.s1t2.R"));
+    let json: serde_json::Value = serde_json::from_slice(&read(3)).expect("JSON");
+    equal(&json, &inspect("cornell", [64, 90], 0), "").unwrap_or_else(|error| panic!("{mode:?}: {error}"));
+    equal(&json, &inspect("cornell", [64, 90], 1), "").expect_err("another sample");
+    roxmltree::Document::parse(&String::from_utf8(read(4)).expect("UTF-8")).expect("an SVG");
+    for (index, args) in [(5, "--csv"), (6, "--vertices-csv")] {
+        let native = folder.path().join("native.csv");
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_bdpt-explorer"));
+        command.args(["inspect", "cornell", "--pixel", "64,90", "--size", "128x128", args]).arg(&native);
+        assert!(command.output().expect("the program").status.success());
+        let lines = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8").lines().count();
+        assert_eq!(lines(read(index)), lines(std::fs::read(&native).expect("the table")));
     }
 }
 

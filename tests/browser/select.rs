@@ -49,84 +49,78 @@ fn numbers(text: &str) -> Vec<f64> {
     text.split([',', ' ']).filter_map(|word| word.parse().ok()).collect()
 }
 
-#[test]
-fn a_click_shows_the_path_that_inspect_shows() {
-    for mode in Mode::BOTH {
-        let twin = Twin::new(DESKTOP, LINK);
-        let Some(mut page) = Page::open("a_click_shows_the_path_that_inspect_shows", Visit::new(mode, LINK)) else { return };
-        page.interactive();
-        page.until_pixel([10, 10]);
-        for pixel in [[64, 64], [37, 101], [120, 70]] {
-            page.click(twin.pixel(pixel));
-            page.until_pixel(pixel);
-            page.until("document.querySelectorAll('#summary [data-weight]').length > 0");
-            let summary = page.summary();
-            assert_eq!(summary.sample, "0");
-            same_path(&summary, &inspect(SCENE, pixel, 0)).unwrap_or_else(|error| panic!("{mode:?} {pixel:?}: {error}"));
-            // The control: another sample of it, and another pixel, are other paths.
-            for other in [inspect(SCENE, pixel, 1), inspect(SCENE, [pixel[0] - 1, pixel[1]], 0)] {
-                same_path(&summary, &other).expect_err("another path");
-            }
-        }
-        page.press("n");
-        page.until("document.querySelector('#summary[data-sample], #summary [data-sample]').dataset.sample === '1'");
-        let summary = page.summary();
-        same_path(&summary, &inspect(SCENE, [120, 70], 1)).unwrap_or_else(|error| panic!("{mode:?}, the next sample: {error}"));
-        page.shot("click");
-    }
-}
-
-#[test]
-fn a_tap_on_a_phone_shows_the_path_that_inspect_shows() {
-    for mode in Mode::BOTH {
-        let twin = Twin::new(PHONE, LINK);
-        let Some(mut page) = Page::open("a_tap_on_a_phone_shows_the_path_that_inspect_shows", Visit::phone(mode, LINK)) else { return };
-        page.interactive();
-        page.until_pixel([10, 10]);
-        page.tap(twin.pixel([64, 90]));
-        page.until_pixel([64, 90]);
+in_both!(a_click_shows_the_path_that_inspect_shows);
+fn a_click_shows_the_path_that_inspect_shows(mode: Mode) {
+    let twin = Twin::new(DESKTOP, LINK);
+    let Some(mut page) = Page::open("a_click_shows_the_path_that_inspect_shows", Visit::new(mode, LINK)) else { return };
+    page.interactive();
+    page.until_pixel([10, 10]);
+    for pixel in [[64, 64], [37, 101], [120, 70]] {
+        page.click(twin.pixel(pixel));
+        page.until_pixel(pixel);
         page.until("document.querySelectorAll('#summary [data-weight]').length > 0");
         let summary = page.summary();
-        same_path(&summary, &inspect(SCENE, [64, 90], 0)).unwrap_or_else(|error| panic!("{mode:?}: {error}"));
-        page.shot("tap");
-        // Two fingers that spread enlarge the image, and pick nothing.
-        let [x, y] = twin.pixel([64, 64]);
-        let steps: Vec<_> = (0..8u8).map(|i| [[x - 20.0 - 12.0 * f32::from(i), y], [x + 20.0 + 12.0 * f32::from(i), y]]).collect();
-        let before = page.look(None);
-        page.ask(&serde_json::json!({ "do": "fingers", "steps": steps }));
-        page.sleep(700);
-        assert_eq!(page.summary().pixel, "64,90");
-        let changed = super::different(&before, &page.look(None));
-        assert!(changed > 0.2, "{changed} of the page has changed");
+        assert_eq!(summary.sample, "0");
+        same_path(&summary, &inspect(SCENE, pixel, 0)).unwrap_or_else(|error| panic!("{mode:?} {pixel:?}: {error}"));
+        // The control: another sample of it, and another pixel, are other paths.
+        for other in [inspect(SCENE, pixel, 1), inspect(SCENE, [pixel[0] - 1, pixel[1]], 0)] {
+            same_path(&summary, &other).expect_err("another path");
+        }
     }
+    page.press("n");
+    page.until("document.querySelector('#summary[data-sample], #summary [data-sample]').dataset.sample === '1'");
+    let summary = page.summary();
+    same_path(&summary, &inspect(SCENE, [120, 70], 1)).unwrap_or_else(|error| panic!("{mode:?}, the next sample: {error}"));
+    page.shot("click");
 }
 
-#[test]
-fn a_toggle_changes_the_image() {
-    for mode in Mode::BOTH {
-        let link = "#v=1&scene=cornell-spheres&size=128x128&max=image&px=64,90&strategy=s1t2&draw=none";
-        let twin = Twin::new(DESKTOP, link);
-        let Some(mut page) = Page::open("a_toggle_changes_the_image", Visit::new(mode, link)) else { return };
-        page.interactive();
-        page.until_spp(8.0);
-        page.press("p");
-        page.sleep(1500);
-        let ([left, top], [right, bottom]) = (twin.pixel([2, 2]), twin.pixel([125, 125]));
-        let clip = Some([left, top, right - left, bottom - top]);
-        let (before, again) = (page.look(clip), {
-            page.sleep(500);
-            page.look(clip)
-        });
-        assert!(super::different(&before, &again) < 0.01, "the image stands still");
-        page.press("h");
-        page.sleep(1500);
-        let hidden = page.look(clip);
-        let changed = super::different(&before, &hidden);
-        assert!(changed > 0.3, "next event is most of the light: {changed} of the image has changed");
-        assert!(super::brightness(&hidden) < 0.8 * super::brightness(&before), "what is hidden is missing");
-        page.shot("hidden");
-        page.press("h");
-        page.sleep(1500);
-        assert!(super::different(&before, &page.look(clip)) < 0.01, "shown again it is as before");
-    }
+in_both!(a_tap_on_a_phone_shows_the_path_that_inspect_shows);
+fn a_tap_on_a_phone_shows_the_path_that_inspect_shows(mode: Mode) {
+    let twin = Twin::new(PHONE, LINK);
+    let Some(mut page) = Page::open("a_tap_on_a_phone_shows_the_path_that_inspect_shows", Visit::phone(mode, LINK)) else { return };
+    page.interactive();
+    page.until_pixel([10, 10]);
+    page.tap(twin.pixel([64, 90]));
+    page.until_pixel([64, 90]);
+    page.until("document.querySelectorAll('#summary [data-weight]').length > 0");
+    let summary = page.summary();
+    same_path(&summary, &inspect(SCENE, [64, 90], 0)).unwrap_or_else(|error| panic!("{mode:?}: {error}"));
+    page.shot("tap");
+    // Two fingers that spread enlarge the image, and pick nothing.
+    let [x, y] = twin.pixel([64, 64]);
+    let steps: Vec<_> = (0..8u8).map(|i| [[x - 20.0 - 12.0 * f32::from(i), y], [x + 20.0 + 12.0 * f32::from(i), y]]).collect();
+    let before = page.look(None);
+    page.ask(&serde_json::json!({ "do": "fingers", "steps": steps }));
+    page.sleep(700);
+    assert_eq!(page.summary().pixel, "64,90");
+    let changed = super::different(&before, &page.look(None));
+    assert!(changed > 0.2, "{changed} of the page has changed");
+}
+
+in_both!(a_toggle_changes_the_image);
+fn a_toggle_changes_the_image(mode: Mode) {
+    let link = "#v=1&scene=cornell-spheres&size=128x128&max=image&px=64,90&strategy=s1t2&draw=none";
+    let twin = Twin::new(DESKTOP, link);
+    let Some(mut page) = Page::open("a_toggle_changes_the_image", Visit::new(mode, link)) else { return };
+    page.interactive();
+    page.until_spp(8.0);
+    page.press("p");
+    page.sleep(1500);
+    let ([left, top], [right, bottom]) = (twin.pixel([2, 2]), twin.pixel([125, 125]));
+    let clip = Some([left, top, right - left, bottom - top]);
+    let (before, again) = (page.look(clip), {
+        page.sleep(500);
+        page.look(clip)
+    });
+    assert!(super::different(&before, &again) < 0.01, "the image stands still");
+    page.press("h");
+    page.sleep(1500);
+    let hidden = page.look(clip);
+    let changed = super::different(&before, &hidden);
+    assert!(changed > 0.3, "next event is most of the light: {changed} of the image has changed");
+    assert!(super::brightness(&hidden) < 0.8 * super::brightness(&before), "what is hidden is missing");
+    page.shot("hidden");
+    page.press("h");
+    page.sleep(1500);
+    assert!(super::different(&before, &page.look(clip)) < 0.01, "shown again it is as before");
 }
