@@ -378,7 +378,7 @@ fn without_a_display_a_link_is_followed() {
     let mean = |channels: &BTreeMap<String, Vec<f32>>| channels["R"].iter().sum::<f32>() / (48.0 * 32.0);
     succeed(folder.path(), &format!("--link {}", hash.replace("&hide=none,s1t2", "")));
     let (_, whole) = channels(&folder.path().join("bdpt-explorer-out/furnace.exr"));
-    assert!((mean(&whole) - 0.375).abs() < 0.01 && mean(&hidden) < 0.95 * mean(&whole), "{} {}", mean(&whole), mean(&hidden));
+    assert!((mean(&whole) - 0.375).abs() < 0.01 && mean(&hidden) < 0.97 * mean(&whole), "{} {}", mean(&whole), mean(&hidden));
 }
 
 #[cfg(unix)]

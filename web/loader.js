@@ -28,6 +28,8 @@ function fail(kind, detail) {
   const size = memory === undefined ? "" : `\nmemory: ${Math.round(memory.buffer.byteLength / 2 ** 20)} MiB`;
   at("failure-detail").textContent = `${detail}${size}\n${BUILT.program}\n${navigator.userAgent}`;
   at("failure").dataset.kind = kind;
+  // What is left of the program rests from now on.
+  document.documentElement.dataset.ended = kind;
   // A view that ends the program might do so again.
   at("failure-afresh").hidden = location.hash.length < 2;
   at("failure-again").onclick = () => again(kind, false);
@@ -153,5 +155,13 @@ async function start() {
   const program = await init({ module_or_path: module });
   memory = program.memory;
 }
+
+// Where a browser's developer tools imitate a phone, sizes in device pixels are wrong: the program goes by the others then.
+new ResizeObserver(([entry], observer) => {
+  observer.disconnect();
+  const given = entry.devicePixelContentBoxSize?.[0].inlineSize;
+  const right = entry.contentBoxSize?.[0].inlineSize * devicePixelRatio;
+  if (Math.abs(given - right) > 2) delete ResizeObserverEntry.prototype.devicePixelContentBoxSize;
+}).observe(at("stage"));
 
 start().catch((error) => (error instanceof Failure ? fail(error.kind, error.message) : uncaught(error, undefined)));

@@ -60,7 +60,7 @@ impl Gpu {
     /// # Errors
     /// If it cannot run the kernels, gives no device, or runs on the processor and `software` is not welcome.
     pub async fn open_on(adapter: &wgpu::Adapter, software: bool) -> Result<Self, GpuError> {
-        let (info, limits) = (adapter.get_info(), adapter.limits());
+        let (info, limits) = (named(adapter.get_info()), adapter.limits());
         check(&info, &limits, adapter.get_downlevel_capabilities().flags)?;
         if !software && info.device_type == wgpu::DeviceType::Cpu {
             return Err(GpuError::SoftwareOnly(info.name));
@@ -129,10 +129,18 @@ impl Gpu {
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let internal = self.device.push_error_scope(wgpu::ErrorFilter::Internal);
         let made = make();
-        let errors = [internal.pop().await, validation.pop().await, memory.pop().await];
+        // All end at once: what others do while the answers come is not for these scopes.
+        let (internal, validation, memory) = (internal.pop(), validation.pop(), memory.pop());
+        let errors = [internal.await, validation.await, memory.await];
         self.check()?;
         errors.into_iter().flatten().next().map_or(Ok(made), |error| Err(of(error, what)))
     }
+}
+
+/// With a name: many browsers keep it to themselves.
+fn named(info: wgpu::AdapterInfo) -> wgpu::AdapterInfo {
+    let name = if info.name.is_empty() { "the browser's (WebGPU)".to_owned() } else { info.name };
+    wgpu::AdapterInfo { name, ..info }
 }
 
 fn of(error: wgpu::Error, what: &'static str) -> GpuError {

@@ -1,4 +1,4 @@
-//! Tasks in a page: each goes on in a turn of the browser's event loop, and none while the page is hidden.
+//! Tasks in a page: each goes on in a turn of the browser's event loop, and none while the page is hidden or once it has failed.
 
 use js_sys::{Function, Promise};
 use std::future::{Future, poll_fn};
@@ -80,8 +80,11 @@ async fn wait(mut start: impl FnMut(Function)) {
     drop(JsFuture::from(Promise::new(&mut |resolve, _| start(resolve))).await);
 }
 
+/// Does nobody look at the page, or has the program ended (`web/loader.js`)?
 fn hidden() -> bool {
-    web_sys::window().and_then(|window| window.document()).is_some_and(|document| document.hidden())
+    let document = web_sys::window().and_then(|window| window.document());
+    let ended = |root: web_sys::Element| root.has_attribute("data-ended");
+    document.is_some_and(|document| document.hidden() || document.document_element().is_some_and(ended))
 }
 
 /// Wakes work that rests.

@@ -157,7 +157,7 @@ impl App {
         Panel::bottom("status bar").frame(slim).show(ui, |ui| status_bar::show(ui, state, live, self.ui_ms));
         let body = Frame::central_panel(ui.style()).fill(Color32::TRANSPARENT).inner_margin(Margin::symmetric(10, 8));
         if std::mem::take(&mut state.link.resized) {
-            link::let_go(ui);
+            link::let_go(ui, state);
         }
         let whole = CentralPanel::default().frame(body);
         match state.maximised {
@@ -168,18 +168,18 @@ impl App {
             Maximised::None => {
                 let room = ui.available_size();
                 if state.prefs.inspector_open {
-                    let share = Share::of(state.shares[0], room.x, (room.x * 0.36).min(470.0));
+                    let share = Share::of(state, 0, room.x, (room.x * 0.36).min(470.0));
                     let panel = Panel::right("inspector").frame(body).default_size(share.size());
                     let panel = panel.size_range(340.0..=(room.x - IMAGE_ROOM.x).max(340.0));
                     let shown = panel.show(ui, |ui| inspector::show(ui, state, live)).response.rect;
-                    state.shares[0] = share.seen(shown.width());
+                    share.seen(state, shown.width());
                 }
                 if state.prefs.pyramid_open {
-                    let share = Share::of(state.shares[1], room.y, (room.y * 0.43).min(PYRAMID_HEIGHT));
+                    let share = Share::of(state, 1, room.y, (room.y * 0.43).min(PYRAMID_HEIGHT));
                     let panel = Panel::bottom("pyramid").frame(body).resizable(true).default_size(share.size());
                     let panel = panel.size_range(130.0..=(room.y - IMAGE_ROOM.y).max(130.0));
                     let shown = panel.show(ui, |ui| pyramid::show(ui, state, live, pictures)).response.rect;
-                    state.shares[1] = share.seen(shown.height());
+                    share.seen(state, shown.height());
                 }
                 let room = ui.available_size();
                 state.narrow = room.x < SIDE_BY_SIDE;
@@ -187,11 +187,11 @@ impl App {
                     return drop(whole.show(ui, |ui| space::show(ui, state, live, stage, gpu)));
                 }
                 if state.prefs.space_open && !state.narrow {
-                    let share = Share::of(state.shares[2], room.x, room.x * 0.5);
+                    let share = Share::of(state, 2, room.x, room.x * 0.5);
                     let panel = Panel::right("space").frame(body).resizable(true).default_size(share.size());
                     let panel = panel.size_range(200.0..=(room.x - 240.0).max(200.0));
                     let shown = panel.show(ui, |ui| space::show(ui, state, live, stage, gpu)).response.rect;
-                    state.shares[2] = share.seen(shown.width());
+                    share.seen(state, shown.width());
                 }
             }
         }

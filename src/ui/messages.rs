@@ -9,9 +9,10 @@ pub fn show(ui: &mut Ui, state: &mut State) {
     if state.phone {
         // Several long ones must not push the rest out of the window.
         let most = 0.25 * ui.ctx().content_rect().height();
-        return drop(ScrollArea::vertical().id_salt("messages").min_scrolled_height(most).max_height(most).show(ui, |ui| list(ui, state)));
+        ScrollArea::vertical().id_salt("messages").min_scrolled_height(most).max_height(most).show(ui, |ui| list(ui, state));
+    } else {
+        list(ui, state);
     }
-    list(ui, state);
 }
 
 /// With less room a sentence has a row of its own, points.

@@ -13,7 +13,7 @@ use super::text::{StudyText, Text, fill};
 use super::theme;
 use crate::bdpt::{Strategy, StrategySet};
 use crate::engine::{Frame, Mode, Study};
-use eframe::egui::{self, Button, Panel, RichText, ScrollArea, Ui, Vec2, vec2};
+use eframe::egui::{self, Button, Panel, RichText, ScrollArea, Ui, vec2};
 use std::sync::Arc;
 
 const ROW_HEAD: f32 = 108.0;
@@ -104,7 +104,7 @@ fn row_head(ui: &mut Ui, state: &mut State, live: &Live, edges: u32, height: f32
         let visible = row(edges).any(|x| existence.absence(x).is_none() && !state.hidden.contains(x));
         let name = state.say(if visible { Text::HideRow } else { Text::ShowRow });
         let number = edges.to_string();
-        let least = Vec2::splat(if theme::for_fingers(ui.style()) { ui.spacing().interact_size.y } else { 0.0 });
+        let least = theme::least(ui);
         ui.horizontal(|ui| {
             let button = ui.add(Button::new(RichText::new(name).small()).min_size(least));
             button.widget_info(|| named(fill(state.say(Text::RowName), &[&number, name])));

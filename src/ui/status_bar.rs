@@ -199,7 +199,7 @@ mod tests {
     #[test]
     fn the_renderer_and_what_fell_back_are_named() {
         let cpu = Stats { backend: "cpu".into(), adapter: "Ryzen".into(), threads: 8, ..Stats::default() };
-        assert_eq!(who_renders(&cpu, Lang::En), "CPU · Ryzen · 8 threads");
+        assert_eq!(who_renders(&cpu, Lang::En), "CPU · Ryzen · threads: 8");
         assert_eq!(fell_back(&cpu, Lang::En), None);
         let gpu = Stats { backend: "gpu".into(), adapter: "Radeon".into(), ..cpu.clone() };
         assert_eq!(who_renders(&gpu, Lang::Zh), "GPU · Radeon");

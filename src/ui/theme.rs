@@ -55,6 +55,11 @@ pub fn for_fingers(style: &Style) -> bool {
     style.spacing.interact_size.y >= TARGETS[0]
 }
 
+/// The least size of a button: a finger needs it wide, too.
+pub fn least(ui: &egui::Ui) -> egui::Vec2 {
+    egui::Vec2::splat(if for_fingers(ui.style()) { TARGETS[0] } else { 0.0 })
+}
+
 /// Gives the context both themes; done once.
 pub fn install(ctx: &egui::Context) {
     ctx.all_styles_mut(type_and_spacing);

@@ -6,10 +6,11 @@ use super::link;
 use super::live::Live;
 use super::state::State;
 use super::text::{Lang, Text};
+use super::theme;
 use super::widgets::{finite, keep_together, labelled};
 use super::{looks_menu, render_menu, scene_menu};
 use crate::bdpt::{HeuristicKind, Strategy, StrategySet};
-use eframe::egui::{Align, ComboBox, DragValue, Layout, Ui, UiBuilder};
+use eframe::egui::{Align, Button, ComboBox, DragValue, Layout, Ui, UiBuilder};
 
 /// The heuristics on offer: which, its name, what it does.
 pub const HEURISTICS: &[(HeuristicKind, Text, Text)] = &[
@@ -109,7 +110,8 @@ fn integrator(ui: &mut Ui, state: &mut State, live: &Live) {
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
         for (index, (set, name, help)) in presets.into_iter().enumerate() {
-            if ui.selectable_label(current == Some(index), state.say(name)).on_hover_text(state.say(help)).clicked() {
+            let button = Button::selectable(current == Some(index), state.say(name)).min_size(theme::least(ui));
+            if ui.add(button).on_hover_text(state.say(help)).clicked() {
                 state.settings.strategies = set;
             }
         }

@@ -20,7 +20,7 @@ fn without_paths() -> Harness<'static, App> {
 
 /// Gives files as if a person had chosen them.
 fn give(window: &mut Harness<'static, App>, purpose: Purpose, files: &[&File]) {
-    let files = files.iter().map(|file| File::clone(file)).collect();
+    let files = files.iter().copied().cloned().collect();
     window.state_mut().state_mut().files.given = Some(Given { purpose, files });
     window.run_steps(1);
 }

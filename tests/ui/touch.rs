@@ -1,7 +1,8 @@
 //! Fingers on the image and on the 3-D view, as a touch screen sends them: the first one is the pointer, too.
 
 use super::*;
-use eframe::egui::{TouchPhase, Vec2, pos2, vec2};
+use bdpt_explorer::ui::state::Placement;
+use eframe::egui::{TouchPhase, Vec2, vec2};
 
 /// Moves a finger; `first`: it is the one that egui takes for the pointer.
 fn finger(window: &mut Harness<'static, App>, id: u64, phase: TouchPhase, pos: Pos2) {
@@ -42,19 +43,22 @@ fn pinch(window: &mut Harness<'static, App>, middle: Pos2, [from, to]: [f32; 2],
     window.run_steps(3);
 }
 
+/// Nothing moves the image any more: not the larger targets, and no numbers that grow with the samples.
+fn still(window: &mut Harness<'static, App>) {
+    window.state_mut().state_mut().touch = true;
+    until(window, "a whole pass", |app| app.live().first_pass().is_none());
+    window.state_mut().state_mut().paused = true;
+    window.run_steps(4);
+    std::thread::sleep(Duration::from_millis(200));
+    window.run_steps(4);
+}
+
 /// Without marks over it, so that a tap is about the pixel.
 fn bare() -> Harness<'static, App> {
     let mut window = cornell();
     let shown = &mut window.state_mut().state_mut().prefs.shown;
     (shown.eye, shown.light, shown.connections, shown.blocked, shown.splats) = (false, false, false, false, false);
-    // Large targets first: they move the image.
-    window.state_mut().state_mut().touch = true;
-    until(&mut window, "a whole pass", |app| app.live().first_pass().is_none());
-    // And what grows with the number of samples: it moves the image, too.
-    window.state_mut().state_mut().paused = true;
-    window.run_steps(4);
-    std::thread::sleep(Duration::from_millis(200));
-    window.run_steps(4);
+    still(&mut window);
     window
 }
 
@@ -113,8 +117,7 @@ fn a_pinch_zooms_about_its_middle_and_picks_nothing() {
 #[test]
 fn a_long_tap_picks_the_pixel_below_a_mark() {
     let mut window = cornell();
-    window.state_mut().state_mut().touch = true;
-    window.run_steps(4);
+    still(&mut window);
     let record = window.state().live().record(window.state().state()).expect("a record").clone();
     let [x, y] = record.pixel;
     // z₁ is what the pixel shows: its mark is in the crosshair.
@@ -171,6 +174,5 @@ fn two_fingers_bring_the_rendered_camera_nearer() {
     let (middle, before) = (window.state().on_screen([32, 32]), eye(&window));
     pinch(&mut window, middle, [40.0, 80.0], Vec2::ZERO);
     assert!((eye(&window) - before).length() > 0.1, "{before:?} → {:?}", eye(&window));
-    let at = pos2(middle.x, middle.y);
-    assert!((window.state().on_screen([32, 32]) - at).length() < 1.0, "the picture stays where it is");
+    assert_eq!(window.state().state().placement, Placement::Fit, "the picture stays where it is");
 }

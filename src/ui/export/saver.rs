@@ -206,7 +206,7 @@ mod tests {
     fn layers_are_refused_by_their_bytes() {
         let size = [1024, 1024];
         assert_eq!(too_large(size, 21, 256 << 20), None);
-        assert_eq!(too_large(size, 22, 256 << 20), Some(22 * 12 << 20));
+        assert_eq!(too_large(size, 22, 256 << 20), Some((22 * 12) << 20));
         assert_eq!(too_large([u32::MAX; 2], 1, u64::MAX), None);
     }
 }

@@ -48,10 +48,11 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     if state.phone {
         // What stays in sight elsewhere has no room to.
         let scroll = ScrollArea::vertical().id_salt(("inspector", state.prefs.tab)).auto_shrink(false);
-        return drop(scroll.show(ui, |ui| {
+        scroll.show(ui, |ui| {
             heads(ui, state, live);
             page(ui, state, live);
-        }));
+        });
+        return;
     }
     heads(ui, state, live);
     ui.separator();

@@ -26,6 +26,8 @@ pub struct LinkState {
     pub(in crate::ui) sampled: bool,
     /// The panels are to take the room a link gives them.
     pub(in crate::ui) resized: bool,
+    /// How large the inspector, the pyramid and the 3-D view were in the last pass, and their room, points.
+    pub(super) seen: [Option<[f32; 2]>; 3],
     /// What was said of the last link.
     told: Vec<String>,
 }

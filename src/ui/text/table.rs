@@ -136,7 +136,7 @@ texts! { Text;
     LoadingHierarchy: "Building the hierarchy over {} triangles …", "正在为 {} 个三角形构建层次结构……";
     Waiting: "Waiting for the first picture …", "正在等待第一幅图像……";
     Backend: "{} · {}", "{} · {}";
-    BackendThreads: "{} · {} · {} threads", "{} · {} · {} 线程";
+    BackendThreads: "{} · {} · threads: {}", "{} · {} · {} 线程";
     FellBack: "Note: the CPU renders. {}", "提示：由 CPU 渲染。{}";
     Compiling: "Compiling for the GPU; the CPU renders meanwhile", "正在为 GPU 编译；暂由 CPU 渲染";
     DeviceReplaced: "Note: {}; another was opened, and the picture goes on", "提示：{}；已重新打开设备，画面继续";

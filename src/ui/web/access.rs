@@ -24,7 +24,7 @@ use wasm_bindgen::prelude::Closure;
 use web_sys::{Document, Element, Event, EventTarget, HtmlElement, KeyboardEvent, PointerEvent};
 use web_time::Instant;
 
-/// The HTML is written at most so often.
+/// The HTML is looked through at most so often.
 const PACE: Duration = Duration::from_millis(500);
 /// The key that leaves the canvas.
 const LEAVE: &str = "F6";
@@ -50,7 +50,7 @@ pub fn preferences() -> Preferences {
 #[derive(Default)]
 pub struct Access {
     parts: Option<Parts>,
-    written: Option<Instant>,
+    looked: Option<Instant>,
     shown: Option<Summary>,
     lang: Option<Lang>,
     text_view: bool,
@@ -72,12 +72,13 @@ impl Access {
             (self.lang, self.text_view) = (Some(state.prefs.lang), state.text_view);
             parts.name(state);
         }
-        let left = self.written.map_or(Duration::ZERO, |written| PACE.saturating_sub(written.elapsed()));
+        let left = self.looked.map_or(Duration::ZERO, |looked| PACE.saturating_sub(looked.elapsed()));
         if !left.is_zero() {
             // What changed since then is not forgotten when nothing else moves.
             pass.ctx.request_repaint_after(left);
             return;
         }
+        self.looked = Some(Instant::now());
         self.write(pass.app);
     }
 
@@ -99,7 +100,7 @@ impl Access {
         if old.is_none_or(|old| old.rendering != summary.rendering) {
             parts.rendering.set_inner_html(&html(&summary.rendering));
         }
-        (self.shown, self.written) = (Some(summary), Some(Instant::now()));
+        self.shown = Some(summary);
     }
 }
 
