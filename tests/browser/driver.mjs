@@ -146,6 +146,13 @@ async function act(command) {
   }
 }
 
+// Nobody waits for an answer any more: the browser goes, too.
+const end = async () => {
+  await browser.close();
+  servers.forEach(server => server.kill());
+  rmSync(folder, { recursive: true, force: true });
+};
+process.stdout.on("error", () => end().finally(() => process.exit(1)));
 process.stdout.write(`${JSON.stringify({ ok: "ready" })}\n`);
 for await (const line of createInterface({ input: process.stdin })) {
   let answer;
@@ -156,6 +163,4 @@ for await (const line of createInterface({ input: process.stdin })) {
   }
   process.stdout.write(`${JSON.stringify(answer)}\n`);
 }
-await browser.close();
-servers.forEach(server => server.kill());
-rmSync(folder, { recursive: true, force: true });
+await end();

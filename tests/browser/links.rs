@@ -5,7 +5,7 @@ use super::page::{DESKTOP, Page, Visit};
 use super::select::{inspect, same_path};
 use super::twin::Twin;
 
-const LINK: &str = "#v=1&scene=glass-caustic&size=128x128&k=5&px=64,64&ev=1&hide=none,s0t2";
+const LINK: &str = "#v=1&scene=glass-caustic&size=128x128&k=5&px=64,64&ev=1&hide=none,s0t2&max=image";
 
 /// The address from # on, once it holds all of these.
 fn hash(page: &mut Page, pieces: &[&str]) -> String {

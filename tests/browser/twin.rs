@@ -27,6 +27,8 @@ impl Twin {
             builder.with_size(vec2(width as f32, height as f32)).build_eframe(|context| App::new(start, &context.egui_ctx, None));
         // There is no file system in a page.
         window.state_mut().state_mut().files.by_path = false;
+        // A telephone's page knows that it has no mouse.
+        window.state_mut().state_mut().touch = width < 600;
         window.state_mut().open_link(link);
         let mut twin = Self(window);
         twin.until(|app| app.live().frame().is_some() && app.live().record(app.state()).is_some());
