@@ -7,15 +7,17 @@
 #![cfg(not(target_arch = "wasm32"))]
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
-/// A claim about a page is a test with WebGPU, and one without.
+/// A claim about a page is a test with WebGPU, and one without. One that is ignored says why.
 macro_rules! in_both {
-    ($claim:ident) => {
+    ($claim:ident $(, ignore = $reason:literal)?) => {
         mod $claim {
             #[test]
+            $(#[ignore = $reason])?
             fn with_webgl() {
                 super::$claim(super::Mode::WebGl);
             }
             #[test]
+            $(#[ignore = $reason])?
             fn with_webgpu() {
                 super::$claim(super::Mode::WebGpu);
             }
