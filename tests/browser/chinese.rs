@@ -35,7 +35,6 @@ fn apart(a: &RgbaImage, b: &RgbaImage) -> f64 {
 }
 
 #[test]
-#[ignore = "not seen to pass on a busy machine yet"]
 fn chinese_has_no_missing_glyph_with_and_without_the_systems_fonts() {
     for (size, scale) in [(DESKTOP, 1.0), (PHONE, 2.0)] {
         let mut shown: Vec<RgbaImage> = Vec::new();

@@ -42,7 +42,7 @@ fn work(page: &mut Page) -> u64 {
     page.eval("window.work").as_u64().expect("a count") - before
 }
 
-in_both!(a_page_that_nobody_looks_at_does_not_render, ignore = "not seen to pass on a busy machine yet");
+in_both!(a_page_that_nobody_looks_at_does_not_render);
 fn a_page_that_nobody_looks_at_does_not_render(mode: Mode) {
     let visit = Visit { init: vec![HIDE.to_owned()], ..Visit::rendered_by_gpu(mode, LINK) };
     let Some(mut page) = Page::open("a_page_that_nobody_looks_at_does_not_render", visit) else { return };
@@ -64,7 +64,7 @@ fn a_page_that_nobody_looks_at_does_not_render(mode: Mode) {
     assert!(hidden <= 2 && shown > 20 && again > 20, "{mode:?}: shown {shown}, hidden {hidden}, shown again {again}");
 }
 
-in_both!(a_lost_device_is_replaced_and_said_and_nothing_else_is_lost, ignore = "not seen to pass on a busy machine yet");
+in_both!(a_lost_device_is_replaced_and_said_and_nothing_else_is_lost);
 fn a_lost_device_is_replaced_and_said_and_nothing_else_is_lost(mode: Mode) {
     let visit = Visit { init: vec![KEEP.to_owned()], ..Visit::rendered_by_gpu(mode, LINK) };
     let Some(mut page) = Page::open("a_lost_device_is_replaced_and_said_and_nothing_else_is_lost", visit) else { return };

@@ -16,7 +16,7 @@ fn hash(page: &mut Page, pieces: &[&str]) -> String {
     page.eval("location.hash").as_str().unwrap_or_default().to_owned()
 }
 
-in_both!(a_share_link_round_trips, ignore = "not seen to pass on a busy machine yet");
+in_both!(a_share_link_round_trips);
 fn a_share_link_round_trips(mode: Mode) {
     let other = if mode == Mode::WebGpu { Mode::WebGl } else { Mode::WebGpu };
     let twin = Twin::new(DESKTOP, LINK);

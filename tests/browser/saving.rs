@@ -42,7 +42,7 @@ impl Menu {
     }
 }
 
-in_both!(the_image_agrees_with_render_and_one_without_a_strategy_does_not, ignore = "not seen to pass on a busy machine yet");
+in_both!(the_image_agrees_with_render_and_one_without_a_strategy_does_not);
 fn the_image_agrees_with_render_and_one_without_a_strategy_does_not(mode: Mode) {
     let job = Job { size: [128, 128], ..Job::new(Arc::new(builtin::open("cornell").expect("a built-in scene"))) };
     let hidden: StrategySet = [SELECTED].into_iter().collect();
@@ -73,7 +73,7 @@ fn the_image_agrees_with_render_and_one_without_a_strategy_does_not(mode: Mode) 
     page.shot("saved");
 }
 
-in_both!(everything_can_be_saved_and_the_sample_is_the_one_that_inspect_prints, ignore = "not seen to pass on a busy machine yet");
+in_both!(everything_can_be_saved_and_the_sample_is_the_one_that_inspect_prints);
 fn everything_can_be_saved_and_the_sample_is_the_one_that_inspect_prints(mode: Mode) {
     const KINDS: [(ExportText, &str); 7] = [
         (ExportText::PictureAsSeen, "cornell.png"),

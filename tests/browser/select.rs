@@ -49,7 +49,7 @@ fn numbers(text: &str) -> Vec<f64> {
     text.split([',', ' ']).filter_map(|word| word.parse().ok()).collect()
 }
 
-in_both!(a_click_shows_the_path_that_inspect_shows, ignore = "not seen to pass on a busy machine yet");
+in_both!(a_click_shows_the_path_that_inspect_shows);
 fn a_click_shows_the_path_that_inspect_shows(mode: Mode) {
     let twin = Twin::new(DESKTOP, LINK);
     let Some(mut page) = Page::open("a_click_shows_the_path_that_inspect_shows", Visit::new(mode, LINK)) else { return };
@@ -75,7 +75,7 @@ fn a_click_shows_the_path_that_inspect_shows(mode: Mode) {
     page.shot("click");
 }
 
-in_both!(a_tap_on_a_phone_shows_the_path_that_inspect_shows, ignore = "not seen to pass on a busy machine yet");
+in_both!(a_tap_on_a_phone_shows_the_path_that_inspect_shows);
 fn a_tap_on_a_phone_shows_the_path_that_inspect_shows(mode: Mode) {
     let twin = Twin::new(PHONE, LINK);
     let Some(mut page) = Page::open("a_tap_on_a_phone_shows_the_path_that_inspect_shows", Visit::phone(mode, LINK)) else { return };
@@ -99,7 +99,7 @@ fn a_tap_on_a_phone_shows_the_path_that_inspect_shows(mode: Mode) {
     assert!(changed > 0.2, "{changed} of the page has changed");
 }
 
-in_both!(a_toggle_changes_the_image, ignore = "not seen to pass on a busy machine yet");
+in_both!(a_toggle_changes_the_image);
 fn a_toggle_changes_the_image(mode: Mode) {
     let link = "#v=1&scene=cornell-spheres&size=128x128&max=image&px=64,90&strategy=s1t2&draw=none";
     let twin = Twin::new(DESKTOP, link);

@@ -13,7 +13,7 @@ fn mark(page: &mut Page, name: &str) -> f64 {
     page.eval(&script).as_f64().expect("a time")
 }
 
-in_both!(the_page_loads_and_renders_with_webgpu_and_without, ignore = "not seen to pass on a busy machine yet");
+in_both!(the_page_loads_and_renders_with_webgpu_and_without);
 fn the_page_loads_and_renders_with_webgpu_and_without(mode: Mode) {
     for visit in [Visit::rendered_by_gpu(mode, LINK), Visit::phone(mode, LINK)] {
         let phone = visit.phone;
@@ -37,7 +37,6 @@ fn the_page_loads_and_renders_with_webgpu_and_without(mode: Mode) {
 }
 
 #[test]
-#[ignore = "not seen to pass on a busy machine yet"]
 fn a_renderer_is_forced_by_the_address_and_the_page_says_which_one_runs() {
     // What the browser has, what is asked for, who renders, what draws the window, and is there something to complain of?
     let cases = [
@@ -63,7 +62,6 @@ fn a_renderer_is_forced_by_the_address_and_the_page_says_which_one_runs() {
 }
 
 #[test]
-#[ignore = "not seen to pass on a busy machine yet"]
 fn without_a_secure_context_the_processor_renders_and_the_page_says_why() {
     let visit = Visit { insecure: true, ..Visit::new(Mode::WebGpu, LINK) };
     let Some(mut page) = Page::open("without_a_secure_context_the_processor_renders_and_the_page_says_why", visit) else { return };
@@ -74,7 +72,7 @@ fn without_a_secure_context_the_processor_renders_and_the_page_says_why() {
     assert!(text.as_str().is_some_and(|text| text.contains("HTTPS")), "{text}");
 }
 
-in_both!(the_folder_works_below_a_path, ignore = "not seen to pass on a busy machine yet");
+in_both!(the_folder_works_below_a_path);
 fn the_folder_works_below_a_path(mode: Mode) {
     let visit = Visit { prefix: "/courses/light transport", ..Visit::new(mode, LINK) };
     let Some(mut page) = Page::open("the_folder_works_below_a_path", visit) else { return };
