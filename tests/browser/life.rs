@@ -35,10 +35,10 @@ if (request) {
 }
 "#;
 
-/// How much was rendered in two seconds.
+/// How much was rendered in four seconds.
 fn work(page: &mut Page) -> u64 {
     let before = page.eval("window.work").as_u64().expect("a count");
-    page.sleep(2000);
+    page.sleep(4000);
     page.eval("window.work").as_u64().expect("a count") - before
 }
 
@@ -60,8 +60,9 @@ fn a_page_that_nobody_looks_at_does_not_render(mode: Mode) {
     page.eval("window.look(false)");
     page.until_spp(spp + 1.0);
     let again = work(&mut page);
-    // A page that is away still looks now and then whether it is.
-    assert!(hidden <= 2 && shown > 20 && again > 20, "{mode:?}: shown {shown}, hidden {hidden}, shown again {again}");
+    // A software adapter's kernels take long; a page that is away still looks now and then whether it is.
+    let least = shown.min(again);
+    assert!(least >= 2 && 20 * hidden <= least, "{mode:?}: shown {shown}, hidden {hidden}, shown again {again}");
 }
 
 in_both!(a_lost_device_is_replaced_and_said_and_nothing_else_is_lost);
@@ -82,9 +83,10 @@ fn a_lost_device_is_replaced_and_said_and_nothing_else_is_lost(mode: Mode) {
     page.until("document.querySelector('#notes').textContent.includes('restarted')");
     let told = page.notes();
     assert!(told.to_lowercase().contains("graphics"), "{told}");
-    page.until_renderer(&before.renderer);
     page.until_spp(before.spp + 2.0);
     page.sleep(1000);
+    // The CPU may have gone on while kernels were compiled.
+    page.until_renderer(&before.renderer);
     let after = page.summary();
     assert_eq!((&after.pixel, &after.sample, &after.renderer), (&before.pixel, &before.sample, &before.renderer), "{mode:?}: {told}");
     let colours = super::colours(&page.look(None));

@@ -31,7 +31,10 @@ impl Twin {
         window.state_mut().state_mut().touch = width < 600;
         window.state_mut().open_link(link);
         let mut twin = Self(window);
-        twin.until(|app| app.live().frame().is_some() && app.live().record(app.state()).is_some());
+        twin.until(|app| app.state().link.pending().is_none());
+        twin.until(|app| {
+            app.live().frame().is_some_and(|frame| frame.size == app.state().size) && app.live().record(app.state()).is_some()
+        });
         // The page needs the processor more.
         twin.0.state_mut().state_mut().paused = true;
         twin.0.run_steps(2);
