@@ -7,17 +7,15 @@
 #![cfg(not(target_arch = "wasm32"))]
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
-/// A claim about a page is a test with WebGPU, and one without. One that is ignored says why.
+/// A claim about a page is a test with WebGPU, and one without.
 macro_rules! in_both {
-    ($claim:ident $(, ignore = $reason:literal)?) => {
+    ($claim:ident) => {
         mod $claim {
             #[test]
-            $(#[ignore = $reason])?
             fn with_webgl() {
                 super::$claim(super::Mode::WebGl);
             }
             #[test]
-            $(#[ignore = $reason])?
             fn with_webgpu() {
                 super::$claim(super::Mode::WebGpu);
             }
