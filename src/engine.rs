@@ -26,7 +26,7 @@ mod thread;
 pub use batches::Intervals;
 pub use device::device_in_use;
 pub use frame::{Frame, PixelMeans, Thumbnail};
-pub use job::{Backend, FILM_BUDGET, Job, JobError, MAX_SIDE};
+pub use job::{Backend, FILM_BUDGET, Job, JobError, MAX_SIDE, Still};
 pub use lobe::{Lobe, lobe};
 pub use picture::{Mode, Picture, Source, Values};
 pub use probe::Probe;

@@ -14,11 +14,7 @@ fn main() -> std::process::ExitCode {
             ui::WindowError::Ended(why) => cli::NoWindow::Ended(why),
         })
     };
-    let follow = |link: &str| {
-        let ui::link::Still { job, hidden, look, note } = ui::link::still(link)?;
-        Ok(cli::Linked { job, hidden, look, note })
-    };
-    cli::main(cli::Windows { open, follow })
+    cli::main(cli::Windows { open, follow: ui::link::still })
 }
 
 #[cfg(target_arch = "wasm32")]

@@ -5,7 +5,7 @@
 // consequence. What does not end the program is left in `bdpt.notes`, for it to show; `bdpt.wake`, which it sets, tells it so.
 const at = (id) => document.getElementById(id);
 const chinese = (tag) => /^zh\b/i.test(tag ?? "");
-document.documentElement.lang = (navigator.languages ?? [navigator.language]).length > 0 && chinese((navigator.languages ?? [])[0] ?? navigator.language) ? "zh-Hans" : "en";
+document.documentElement.lang = chinese(navigator.languages?.[0] ?? navigator.language) ? "zh-Hans" : "en";
 /** The page's texts in its language, which the program changes when a person does. */
 const texts = () => TEXTS[chinese(document.documentElement.lang) ? "zh" : "en"];
 

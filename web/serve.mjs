@@ -28,7 +28,7 @@ function options() {
   const known = { port: { type: "string", default: "0" }, prefix: { type: "string", default: "" }, host: { type: "string", default: "127.0.0.1" } };
   const { values, positionals } = parseArgs({ options: known, allowPositionals: true });
   const port = Number(values.port);
-  const prefix = values.prefix.replace(/^\/*/, "/").replace(/\/+$/, "");
+  const prefix = encodeURI(values.prefix.replace(/^\/*/, "/").replace(/\/+$/, ""));
   if (positionals.length !== 1 || !Number.isInteger(port) || port < 0 || port > 65535) {
     throw new Error("usage: node web/serve.mjs DIR [--port N] [--prefix /some/path] [--host H]");
   }
@@ -41,14 +41,16 @@ function options() {
 
 /** The file a request asks for; undefined if there is none. */
 function find(folder, prefix, url) {
+  const whole = new URL(url, "http://localhost").pathname;
+  if (!whole.startsWith(`${prefix}/`)) return undefined;
   let path;
   try {
-    path = decodeURIComponent(new URL(url, "http://localhost").pathname);
+    path = decodeURIComponent(whole.slice(prefix.length));
   } catch {
     return undefined;
   }
-  if (!path.startsWith(`${prefix}/`) || path.includes("\0")) return undefined;
-  const file = normalize(join(folder, path.slice(prefix.length), path.endsWith("/") ? "index.html" : ""));
+  if (path.includes("\0")) return undefined;
+  const file = normalize(join(folder, path, path.endsWith("/") ? "index.html" : ""));
   return file.startsWith(folder + sep) && existsSync(file) && statSync(file).isFile() ? file : undefined;
 }
 
@@ -89,7 +91,7 @@ function answer(request, response, { folder, prefix }) {
   }
   response.writeHead(200, { ...headers, "Content-Length": statSync(file).size });
   if (request.method === "HEAD") response.end();
-  else createReadStream(file).pipe(response);
+  else createReadStream(file).on("error", () => response.destroy()).pipe(response);
 }
 
 try {

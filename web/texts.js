@@ -9,7 +9,7 @@ const TEXTS = {
     network: ["The program could not be loaded", "The download of the page's program failed or broke off.", "Check the connection, then start again."],
     stale: ["There is a newer version", "The page in the browser's memory belongs to a version that is no longer on the server.", "Start again to get the new one."],
     server: ["The server sent something else", "Instead of the program, the server sent another kind of file.", "If this is your server: serve the built folder as it is, with every file under its own name."],
-    old: ["This browser is too old", "It cannot run the program, which needs WebAssembly with vector instructions.", "Update it, or take another one: Chrome or Edge 91, Firefox 89, Safari 16.4, or newer."],
+    old: ["This browser is too old", "It cannot run the program, which needs WebAssembly with vector instructions.", "Update it, or take another one: Chrome or Edge 96, Firefox 89, Safari 16.4, or newer."],
     graphics: [
       "The browser gives the page no graphics",
       "The program draws its window with WebGPU or, without that, with WebGL 2. Here there is neither.",
@@ -42,7 +42,7 @@ const TEXTS = {
     network: ["无法加载程序", "页面程序下载失败或中断。", "请检查网络连接，然后重新开始。"],
     stale: ["已有更新的版本", "浏览器缓存的页面属于服务器上已不存在的版本。", "重新开始即可获得新版本。"],
     server: ["服务器发送了别的内容", "服务器没有发送程序，而是发送了另一种文件。", "如果这是您的服务器：请原样提供构建出的文件夹，每个文件保持原名。"],
-    old: ["浏览器版本过旧", "它无法运行本程序：程序需要带向量指令的 WebAssembly。", "请更新浏览器，或使用 Chrome / Edge 91、Firefox 89、Safari 16.4 或更新版本。"],
+    old: ["浏览器版本过旧", "它无法运行本程序：程序需要带向量指令的 WebAssembly。", "请更新浏览器，或使用 Chrome / Edge 96、Firefox 89、Safari 16.4 或更新版本。"],
     graphics: [
       "浏览器没有为页面提供图形功能",
       "程序用 WebGPU 绘制窗口，没有时用 WebGL 2。这里两者都没有。",

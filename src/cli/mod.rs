@@ -10,10 +10,8 @@ mod progress;
 mod render;
 mod values;
 
-use crate::bdpt::StrategySet;
-use crate::engine::{Job, JobError};
+use crate::engine::{JobError, Still};
 use crate::film::save::SaveError;
-use crate::film::tonemap::Look;
 use crate::scene::{SceneError, builtin};
 use args::{Command, Options};
 use clap::Parser;
@@ -65,18 +63,6 @@ pub enum Wanted {
     Link(String),
 }
 
-/// What a link is about, for who has no window.
-pub struct Linked {
-    /// What is rendered.
-    pub job: Job,
-    /// The strategies left out of the picture.
-    pub hidden: StrategySet,
-    /// How it is shown.
-    pub look: Look,
-    /// What there is to say of the link.
-    pub note: Option<String>,
-}
-
 /// What the program needs from the window's side.
 pub struct Windows<O, L> {
     /// Opens the window, and returns when it is closed; or says why there is none.
@@ -89,7 +75,7 @@ pub struct Windows<O, L> {
 pub fn main<O, L>(windows: Windows<O, L>) -> ExitCode
 where
     O: FnOnce(&Wanted) -> Result<(), NoWindow>,
-    L: FnOnce(&str) -> Result<Linked, String>,
+    L: FnOnce(&str) -> Result<Still, String>,
 {
     let options = match Options::try_parse() {
         Ok(options) => options,
@@ -136,7 +122,7 @@ fn print(text: &str) {
 fn window<O, L>(wanted: &Wanted, windows: Windows<O, L>) -> Result<(), Failure>
 where
     O: FnOnce(&Wanted) -> Result<(), NoWindow>,
-    L: FnOnce(&str) -> Result<Linked, String>,
+    L: FnOnce(&str) -> Result<Still, String>,
 {
     if let Wanted::Scene(Some(name)) = wanted {
         builtin::open(name)?;

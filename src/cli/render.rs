@@ -3,9 +3,9 @@
 use super::args::RenderArgs;
 use super::job::{Prepared, open, prepare, say_notes, say_what_is_lost};
 use super::progress::{self, Limit};
-use super::{Failure, Linked, print};
+use super::{Failure, print};
 use crate::bdpt::{HeuristicKind, Strategy, StrategySet};
-use crate::engine::{Job, Notice, Session};
+use crate::engine::{Job, Notice, Session, Still};
 use crate::film::Rect;
 use crate::film::save::{Layer, Window, check_writable, save_bytes, save_exr, save_png};
 use crate::film::tonemap::{Look, ToneMap, to_srgb8};
@@ -54,14 +54,14 @@ pub fn run(args: &RenderArgs) -> Result<(), Failure> {
 }
 
 /// A scene at the defaults.
-pub fn scene(name: &str) -> Result<Linked, Failure> {
+pub fn scene(name: &str) -> Result<Still, Failure> {
     let job = Job::new(open(name, &Overrides::default())?);
-    Ok(Linked { job, hidden: StrategySet::NONE, look: Look::default(), note: None })
+    Ok(Still { job, hidden: StrategySet::NONE, look: Look::default(), note: None })
 }
 
 /// Renders into a folder what there is no window to show in.
-pub fn without_window(why: &str, instead: Linked) -> Result<(), Failure> {
-    let Linked { job, hidden, look, note } = instead;
+pub fn without_window(why: &str, instead: Still) -> Result<(), Failure> {
+    let Still { job, hidden, look, note } = instead;
     say_notes(&job.scene);
     let folder = Path::new("bdpt-explorer-out");
     eprintln!("no window: {why}");

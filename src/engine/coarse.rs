@@ -1,4 +1,5 @@
-//! A first look where one thread does everything: the same job in a film eight times smaller on each side. One pass of it takes a
+//! A first look where one thread does everything: the same job in a film an eighth as large on each side (rounded up; what that
+//! changes in the film's shape is less than a block). One pass of it takes a
 //! few hundredths of a second; it is shown, in blocks, until the film itself has a picture.
 
 use super::frame::{Frame, make_frame, make_picture};
@@ -25,8 +26,10 @@ impl Coarse {
         let size = job.size;
         let small = size.map(|side| side.div_ceil(BLOCK));
         let job = Job { size: small, backend: Backend::Cpu, crop: None, raw_layers: false, weighted_layers: true, ..job.clone() };
-        let session = Session::new(job).ok().filter(|_| size.into_iter().max() > Some(SMALL))?;
-        Some(Self { session, size })
+        if size.into_iter().max() <= Some(SMALL) {
+            return None;
+        }
+        Some(Self { session: Session::new(job).ok()?, size })
     }
 
     /// Has it been taken?

@@ -115,13 +115,14 @@ fn kind(scene: &Scene) -> (bool, Specialisation) {
 /// The device, opened anew if it was lost, and the best kernels there are; general ones are compiled if there are none.
 async fn get(software: bool, deep: bool, fitting: Specialisation) -> Result<(Gpu, Layouts, Kernels, Specialisation), GpuError> {
     let turn = PREPARING.lock().await;
-    let open = shared().as_ref().map(|shared| shared.gpu.clone()).filter(|gpu| gpu.check().is_ok());
-    let gpu = match open {
-        Some(gpu) => gpu,
+    let open = shared().as_ref().map(|shared| (shared.gpu.clone(), shared.layouts.clone())).filter(|(gpu, _)| gpu.check().is_ok());
+    let (gpu, layouts) = match open {
+        Some(open) => open,
         None => {
             let gpu = Gpu::open(software).await?;
-            *shared() = Some(Shared { layouts: Layouts::new(&gpu), gpu: gpu.clone(), kernels: Vec::new() });
-            gpu
+            let layouts = Layouts::new(&gpu);
+            *shared() = Some(Shared { layouts: layouts.clone(), gpu: gpu.clone(), kernels: Vec::new() });
+            (gpu, layouts)
         }
     };
     if !software && gpu.is_software() {
@@ -129,7 +130,6 @@ async fn get(software: bool, deep: bool, fitting: Specialisation) -> Result<(Gpu
     }
     drop(turn);
     let best = |which| known(&gpu, deep, which).map(|kernels| (kernels, which));
-    let layouts = shared().as_ref().map_or_else(|| Layouts::new(&gpu), |shared| shared.layouts.clone());
     if let Some((kernels, which)) = best(fitting).or_else(|| best(Specialisation::GENERAL)) {
         return Ok((gpu, layouts, kernels, which));
     }

@@ -2,8 +2,9 @@
 
 use super::Crop;
 use crate::bdpt::render::Plan;
-use crate::bdpt::{Existence, MAX_EDGES, Settings};
+use crate::bdpt::{Existence, MAX_EDGES, Settings, StrategySet};
 use crate::film::Film;
+use crate::film::tonemap::Look;
 use crate::scene::{Camera, Lens, Pose, Scene, View};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -165,6 +166,19 @@ impl Job {
     pub(super) fn plan(&self) -> Plan {
         Plan::new(&self.settings, self.existence(), self.weighted_layers, self.raw_layers)
     }
+}
+
+/// A job, and what becomes of it: a picture without a window.
+#[derive(Clone, Debug)]
+pub struct Still {
+    /// What is rendered.
+    pub job: Job,
+    /// The strategies left out of the picture.
+    pub hidden: StrategySet,
+    /// How it is shown.
+    pub look: Look,
+    /// What there is to say of where it comes from.
+    pub note: Option<String>,
 }
 
 #[cfg(test)]

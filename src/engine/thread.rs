@@ -16,7 +16,7 @@ use web_time::Instant;
 
 /// How long the task renders before it looks for commands.
 const SLICE: Duration = task::slice(Duration::from_millis(30));
-/// Frames come at least this often, unless making one takes longer than a fifth of it.
+/// Frames come at least this often, however long making one takes.
 const RARELY: Duration = Duration::from_millis(if task::THREADS { 250 } else { 1000 });
 
 /// Every strategy's image at full size, for a file.
@@ -213,7 +213,8 @@ impl Worker {
             // All commands that have come; a paused task rests until one does. Of several restarts only the last one counts.
             let (mut changed, mut restart, mut asked) = (false, None, Vec::new());
             loop {
-                let command = if self.paused && !changed { inbox.recv().await.map_err(|_| TryRecvError::Closed) } else { inbox.try_recv() };
+                let rests = self.paused && !changed && !self.looking();
+                let command = if rests { inbox.recv().await.map_err(|_| TryRecvError::Closed) } else { inbox.try_recv() };
                 match command {
                     Ok(Command::Stop) | Err(TryRecvError::Closed) => return,
                     Ok(Command::Restart(job, generation)) => restart = Some((*job, generation)),
@@ -234,9 +235,10 @@ impl Worker {
                 // Who asked may have gone away meanwhile.
                 drop(sender.try_send(self.layers().await));
             }
-            // The first look at something new should not be empty, and a restart has seen to that.
-            if self.coarse.as_ref().is_some_and(|coarse| !coarse.is_done()) {
+            // The first look at something new should not be empty: a restart has seen to that, or begun to, also of a paused one.
+            if self.looking() {
                 self.look().await;
+                changed |= !self.looking();
             } else if !self.paused && !restarted {
                 // A batch that is due ends with this pass.
                 let next = self.session.passes().saturating_add(1);
@@ -244,10 +246,10 @@ impl Worker {
                 self.session.advance(SLICE).await;
             }
             self.end_batch().await;
-            if changed || Instant::now() >= next_frame {
+            if (changed || Instant::now() >= next_frame) && !self.looking() {
                 let began = Instant::now();
                 self.publish().await;
-                // A frame costs time too: at most a fifth of it, at least four frames a second.
+                // A frame costs time too: at most a fifth of it.
                 next_frame = Instant::now() + (began.elapsed() * 4).clamp(Duration::from_millis(50), RARELY);
             }
         }
@@ -267,6 +269,11 @@ impl Worker {
                 None => self.session.advance(SLICE).await,
             }
         }
+    }
+
+    /// Is a first look being taken?
+    fn looking(&self) -> bool {
+        self.coarse.as_ref().is_some_and(|coarse| !coarse.is_done())
     }
 
     /// Takes the first look.
@@ -308,7 +315,7 @@ impl Worker {
         if self.session.passes() > 0 || self.session.pass_fraction() >= 0.125 {
             self.coarse = None;
         }
-        let (session, coarse) = (&self.session, self.coarse.as_ref().filter(|coarse| coarse.is_done()));
+        let (session, coarse) = (&self.session, self.coarse.as_ref());
         let mut frame = match coarse {
             Some(coarse) => coarse.frame(session, self.generation, self.hidden),
             None => make_frame(session, self.generation, self.hidden, self.pixel),

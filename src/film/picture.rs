@@ -13,7 +13,7 @@ use std::fmt;
 use std::io::{Cursor, ErrorKind};
 use std::path::Path;
 
-/// Most pixels of a picture that is read; in a browser for want of memory.
+/// Most pixels of a picture that is read: fewer in a browser, for want of memory.
 const MOST_PIXELS: usize = if cfg!(target_arch = "wasm32") { 1 << 24 } else { 1 << 26 };
 
 /// A picture.

@@ -1,4 +1,5 @@
-//! Tasks in a page: each goes on in a turn of the browser's event loop, and none while the page is hidden or once it has failed.
+//! Tasks in a page: each goes on in a turn of the browser's event loop. One that gives way waits while the page is hidden, and for
+//! ever once it has failed.
 
 use js_sys::{Function, Promise};
 use std::future::{Future, poll_fn};

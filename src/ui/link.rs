@@ -32,7 +32,7 @@ pub use copy::{button, copy, show as show_copied, text};
 pub use follow::{LinkState, loaded, open, refused};
 pub use ignored::{Ignored, Why};
 pub use share::{Share, let_go};
-pub use still::{Still, still};
+pub use still::still;
 
 use super::compare::{Mode as CompareMode, Source};
 use super::inspector::Bars;

@@ -7,6 +7,7 @@ use super::{Check, CheckResult, Finding, Phrase, Place, Said, Verdict};
 use crate::bdpt::mis::mis_weight;
 use crate::bdpt::{Heuristic, HeuristicKind, Settings, Strategy};
 use crate::engine::{Backend, Job, Session};
+use crate::task;
 use std::sync::atomic::Ordering::Relaxed;
 use std::time::Duration;
 
@@ -111,7 +112,8 @@ async fn render(task: &Task<'_>, settings: &Settings, kinds: &[(Heuristic, &str)
         let job = Job { settings, ..small(task.job, SIDE) };
         let Ok(mut session) = Session::new(Job { backend: Backend::Cpu, ..job }) else { continue };
         while session.passes() < PASSES && !task.cancel.load(Relaxed) {
-            session.advance(Duration::from_millis(100)).await;
+            session.advance(task::slice(Duration::from_millis(100))).await;
+            task::give_way().await;
         }
         session.gather().await;
         let stats = session.stats();

@@ -10,7 +10,7 @@ use super::{Check, CheckResult, Effort, Finding, Phrase, Said, Verdict};
 use crate::bdpt::Settings;
 use crate::engine::{Backend, Job, Notice, Session};
 use crate::math::Vec3;
-use crate::task::Bell;
+use crate::task::{self, Bell};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::Duration;
 
@@ -70,7 +70,8 @@ async fn rendered(mut session: Session, passes: u32, cancel: &AtomicBool) -> Opt
     }
     session.set_limit(passes);
     while session.passes() < passes {
-        session.advance(Duration::from_millis(50)).await;
+        session.advance(task::slice(Duration::from_millis(50))).await;
+        task::give_way().await;
         if cancel.load(Relaxed) {
             return None;
         }

@@ -65,13 +65,14 @@ impl Task<'_> {
 
     /// Traces and visits samples until the budget is spent; returns what was found, and in how many samples.
     pub async fn sweep<A: Merge>(&mut self, settings: &Settings, visit: impl Fn(&Context, &mut Sample, &mut A) + Sync) -> (A, u64) {
-        let (view, budget, start) = (&self.view, self.budget, Instant::now());
+        let (view, budget) = (&self.view, self.budget);
         let context = Context::new(&self.job.scene, view, settings);
         let (light, eye) = ((settings.max_edges + self.lens()) as usize, settings.max_edges as usize + 1);
         let order = Order::of(view.size);
-        let (mut found, mut done) = (A::default(), 0);
-        while done < budget.samples && start.elapsed() < budget.time && !self.cancel.load(Relaxed) {
+        let (mut found, mut done, mut spent) = (A::default(), 0, Duration::ZERO);
+        while done < budget.samples && spent < budget.time && !self.cancel.load(Relaxed) {
             let round = (budget.samples - done).min(CHUNK * if task::THREADS { 4 * rayon::current_num_threads() as u64 } else { 1 });
+            let start = Instant::now();
             let chunks: Vec<A> = (0..round.div_ceil(CHUNK))
                 .into_par_iter()
                 .map_init(Sample::default, |sample, chunk| {
@@ -85,9 +86,11 @@ impl Task<'_> {
                 .collect();
             chunks.into_iter().for_each(|part| found.merge(part));
             done += round;
-            let spent = start.elapsed().as_secs_f64() / budget.time.as_secs_f64();
+            // Only the work counts: a page may be hidden for hours meanwhile.
+            spent += start.elapsed();
             task::give_way().await;
-            (self.tell)((done as f64 / budget.samples as f64).max(spent).min(1.0));
+            let part = spent.as_secs_f64() / budget.time.as_secs_f64();
+            (self.tell)((done as f64 / budget.samples as f64).max(part).min(1.0));
         }
         (found, done)
     }

@@ -37,7 +37,7 @@ impl<'a> Beside<'a> {
             }
             Self::Files(files) => match files.find(uri)? {
                 Some(File { bytes, .. }) => Ok(Cow::Borrowed(bytes)),
-                None => Err(missing(files, root)),
+                None => Err(missing(files, root, uri)),
             },
         }
     }
@@ -60,9 +60,11 @@ pub fn named(root: &Root) -> BTreeSet<String> {
     buffers.chain(images).chain(environment).filter(|uri| scheme(uri).is_none()).collect()
 }
 
-/// Says which of the files that a document names were not given.
-fn missing(files: &Files, root: &Root) -> String {
-    let missing: Vec<String> = named(root).iter().filter(|uri| matches!(files.find(uri), Ok(None))).map(|uri| decoded(uri)).collect();
+/// Says which of the files that a document names were not given; `asked` is one of them (the sky of another of its scenes, say).
+fn missing(files: &Files, root: &Root, asked: &str) -> String {
+    let mut named = named(root);
+    named.insert(asked.to_owned());
+    let missing: Vec<String> = named.iter().filter(|uri| matches!(files.find(uri), Ok(None))).map(|uri| decoded(uri)).collect();
     let names: Vec<String> = missing.iter().take(MOST_NAMED).map(|name| format!("'{name}'")).collect();
     let more = if missing.len() > MOST_NAMED { format!(" and {} more", missing.len() - MOST_NAMED) } else { String::new() };
     let (names, scene) = (names.join(", "), files.scene.short_name());

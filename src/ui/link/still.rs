@@ -2,26 +2,12 @@
 
 use super::ignored::{Ignored, Why, sentence};
 use super::{Link, MOST_BYTES, Shared, arrive};
-use crate::bdpt::StrategySet;
-use crate::engine::Job;
-use crate::film::tonemap::Look;
+use crate::engine::{Job, Still};
 use crate::scene::environment::EnvironmentSource;
 use crate::scene::{Overrides, Progress, builtin, edit};
 use crate::ui::state::{Preferences, State};
 use crate::ui::text::Lang;
 use std::sync::Arc;
-
-/// The picture of a link.
-pub struct Still {
-    /// What is rendered.
-    pub job: Job,
-    /// The strategies left out of the picture.
-    pub hidden: StrategySet,
-    /// How it is shown.
-    pub look: Look,
-    /// What of the link could not be followed.
-    pub note: Option<String>,
-}
 
 /// The picture of a link.
 ///
