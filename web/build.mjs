@@ -33,8 +33,8 @@ function step(what) {
   console.log(`[${((Date.now() - started) / 1000).toFixed(0).padStart(4)} s] ${what}`);
 }
 
-function run(program, args, env = {}) {
-  execFileSync(program, args, { cwd: ROOT, stdio: "inherit", env: { ...process.env, ...env } });
+function run(program, args, env = {}, options = {}) {
+  execFileSync(program, args, { cwd: ROOT, stdio: "inherit", env: { ...process.env, ...env }, ...options });
 }
 
 /** What a program prints; undefined if it cannot be run. */
@@ -91,8 +91,10 @@ function optimiser() {
   if (!existsSync(script)) {
     step(`wasm-opt (binaryen ${BINARYEN}) is fetched once, into ${root}`);
     mkdirSync(root, { recursive: true });
-    const npm = process.platform === "win32" ? "npm.cmd" : "npm";
-    run(npm, ["install", "--prefix", root, "--no-save", "--no-audit", "--no-fund", "--loglevel=error", `binaryen@${BINARYEN}`]);
+    // On Windows npm is a script, which only a shell runs; in the folder itself no path has to be quoted for it.
+    const windows = process.platform === "win32";
+    const options = { cwd: root, shell: windows };
+    run(windows ? "npm.cmd" : "npm", ["install", "--prefix", ".", "--no-save", "--no-audit", "--no-fund", "--loglevel=error", `binaryen@${BINARYEN}`], {}, options);
   }
   return script;
 }
@@ -106,6 +108,9 @@ function compile() {
     ...env,
     CARGO_TARGET_DIR: folder,
     CARGO_INCREMENTAL: "0",
+    // Flags for every target, which a person may have set for their own machine, would be taken instead of these.
+    RUSTFLAGS: undefined,
+    CARGO_ENCODED_RUSTFLAGS: undefined,
     CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: "-C target-feature=+simd128",
   });
   return join(folder, TRIPLE, chosen.debug ? "debug" : "web", "bdpt-explorer.wasm");
