@@ -15,7 +15,7 @@ pub struct Builtin {
     pub bytes: &'static [u8],
 }
 
-/// The table of built-in scenes.
+/// The table of built-in scenes; the first one is shown where there is no other.
 static SCENES: [Builtin; 13] = [
     Builtin {
         name: "cornell",
@@ -87,6 +87,11 @@ static SCENES: [Builtin; 13] = [
 /// All built-in scenes, in the order to show them.
 pub fn list() -> &'static [Builtin] {
     &SCENES
+}
+
+/// The name of the scene that is shown where there is no other.
+pub fn first() -> &'static str {
+    SCENES[0].name
 }
 
 /// Opens a built-in scene by name, or else a .gltf or .glb file.

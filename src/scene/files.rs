@@ -3,6 +3,7 @@
 //! They have names and perhaps folders, but no place: a URI means the file that has its name, whatever folders it speaks of.
 //! Where several have it, the one with most of the folders in common is meant.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
 
@@ -29,6 +30,13 @@ impl File {
     /// How its name ends, in small letters; nothing if it has no ending.
     pub fn ending(&self) -> String {
         self.short_name().rsplit_once('.').map(|(_, end)| end.to_ascii_lowercase()).unwrap_or_default()
+    }
+}
+
+impl File {
+    /// Does one of these URIs mean it?
+    pub fn is_one_of(&self, uris: &BTreeSet<String>) -> bool {
+        uris.iter().any(|uri| common(&self.name, &decoded(uri)) > 0 || common(&self.name, uri) > 0)
     }
 }
 

@@ -21,6 +21,7 @@ use super::{Overrides, Parts, Progress, Scene, SceneError};
 use beside::Beside;
 use container::{Document, listed};
 use material::Materials;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Extensions whose meaning we know; a file may require them.
@@ -75,11 +76,9 @@ pub fn load_files(files: &Files, overrides: &Overrides, progress: &Progress) -> 
     read(name, (Path::new(name), Beside::Files(files)), &files.scene.bytes, overrides, progress)
 }
 
-/// Does a .glb or .gltf file name this one as one of its own?
-pub fn names(scene: &File, other: &File) -> bool {
-    let alone = Files::new(scene.clone(), vec![other.clone()]);
-    let uris = container::root_of(&scene.bytes).map(|root| beside::named(&root)).unwrap_or_default();
-    uris.iter().any(|uri| matches!(alone.find(uri), Ok(Some(_))))
+/// The files that a .glb or .gltf file names as its own, in whichever of its scenes.
+pub fn named(scene: &File) -> BTreeSet<String> {
+    container::root_of(&scene.bytes).map(|root| beside::named(&root, &root.scenes)).unwrap_or_default()
 }
 
 /// Reads a file; those it names are looked for beside it.

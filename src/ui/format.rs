@@ -25,6 +25,11 @@ fn digits(value: f64, count: i32) -> String {
     }
 }
 
+/// How many MiB, rounded up.
+pub fn mebibytes(bytes: u64) -> String {
+    bytes.div_ceil(1 << 20).to_string()
+}
+
 /// Three channels.
 pub fn rgb(value: [f32; 3]) -> String {
     rgb_f64(value.map(f64::from))

@@ -24,6 +24,9 @@ use crate::scene::files::Files;
 use crate::scene::{Lens, Pose};
 use eframe::egui;
 
+/// The film's size at the first start, pixels.
+pub const FILM: [u32; 2] = [512, 512];
+
 /// What is looked at; every panel follows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Selection {
@@ -254,6 +257,11 @@ impl State {
         text.in_language(self.prefs.lang)
     }
 
+    /// Is what can be hit to be large enough for fingers?
+    pub fn for_fingers(&self) -> bool {
+        self.phone || self.touch
+    }
+
     /// Who is to render the image.
     pub fn backend(&self) -> Backend {
         self.drawn.as_ref().and_then(|drawn| drawn.renders).unwrap_or(self.prefs.backend)
@@ -320,6 +328,13 @@ impl State {
     /// Takes a note back that is no longer true.
     pub fn unsay(&mut self, note: Text) {
         self.messages.retain(|message| message.error || ![Lang::En, Lang::Zh].iter().any(|lang| message.text == note.in_language(*lang)));
+    }
+
+    /// Says something in place of what was said of the same thing before; returns what is to be taken back next time.
+    pub fn tell_instead(&mut self, said: Option<String>, error: bool, text: String) -> Option<String> {
+        self.retract(said);
+        self.tell(error, text.clone());
+        Some(text)
     }
 
     /// Takes a message back that is no longer true.

@@ -6,7 +6,7 @@ use super::*;
 use bdpt_explorer::scene::Progress;
 use bdpt_explorer::scene::environment::EnvironmentSource;
 use bdpt_explorer::scene::files::{File, Files};
-use bdpt_explorer::scene::gltf::{load_files, names};
+use bdpt_explorer::scene::gltf::{load_files, named};
 
 /// A scene that needs three files: its buffer, a picture and its environment.
 struct Needy {
@@ -107,8 +107,21 @@ fn a_broken_file_in_memory_is_refused_by_name() {
 #[test]
 fn a_scene_tells_which_files_are_its_own() {
     let needy = needy("a%20b.bin", "bark.png", "dark sky.hdr");
-    let own = |name: &str| names(&needy.scene(), &File::new(name, Vec::new()));
+    let own = |name: &str| File::new(name, Vec::new()).is_one_of(&named(&needy.scene()));
     assert_eq!(["a b.bin", "bark.png", "x/dark sky.hdr"].map(own), [true; 3]);
     assert_eq!(["b.bin", "sky.hdr"].map(own), [false; 2]);
-    assert!(!names(&File::new("scene.gltf", b"hello".to_vec()), &File::new("sky.hdr", Vec::new())));
+    assert!(named(&File::new("scene.gltf", b"hello".to_vec())).is_empty());
+    // The sky of another of its scenes is its own, too, but nobody misses it.
+    let mut two = needy.json.clone();
+    two["scenes"].as_array_mut().unwrap().push(json!({ "name": "night", "nodes": [0], "extras": { "environment": "night.hdr" } }));
+    let two = File::new("scene.gltf", two.to_string().into_bytes());
+    assert!(File::new("night.hdr", Vec::new()).is_one_of(&named(&two)));
+    let files = Files::new(two, Vec::new());
+    let refused = |inside: Option<&str>| {
+        let overrides = Overrides { scene: inside.map(str::to_owned), ..Overrides::default() };
+        load_files(&files, &overrides, &Progress::default()).unwrap_err().to_string()
+    };
+    let [first, night] = [refused(None), refused(Some("night"))];
+    assert!(first.contains("'dark sky.hdr'") && !first.contains("night.hdr"), "{first}");
+    assert!(night.contains("'night.hdr'") && !night.contains("dark sky.hdr"), "{night}");
 }

@@ -8,7 +8,6 @@ use bdpt_explorer::scene::environment::EnvironmentSource;
 use bdpt_explorer::scene::files::File;
 use bdpt_explorer::ui::state::{Given, Purpose};
 use serde_json::json;
-use std::path::Path;
 
 /// The Cornell box where there are no paths.
 fn without_paths() -> Harness<'static, App> {
@@ -58,15 +57,9 @@ fn room_in_parts() -> [File; 3] {
 }
 
 #[test]
-fn a_dropped_file_is_opened_from_memory_relit_and_opened_again() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("my room.glb");
-    std::fs::write(&path, file_with(0.5, "wall")).expect("a file");
+fn a_given_file_is_opened_from_memory_relit_and_opened_again() {
     let mut window = without_paths();
-    drop_file(&mut window, path.as_path());
-    window.run_steps(2);
-    // The bytes are all that is left of it.
-    drop(folder);
+    give(&mut window, Purpose::Open, &[&File::new("my room.glb", file_with(0.5, "wall"))]);
     shown(&mut window, "my room.glb");
     let opened = |window: &Harness<'static, App>| window.state().live().opened().cloned().expect("a scene");
     assert!(opened(&window).files.is_some() && opened(&window).environment.is_none());
@@ -77,8 +70,8 @@ fn a_dropped_file_is_opened_from_memory_relit_and_opened_again() {
     window.state_mut().state_mut().edit.edits = serde_json::from_str(edits).expect("edits");
     window.run_steps(2);
     let folder = tempfile::tempdir().expect("a folder");
-    drop_file(&mut window, sky(folder.path()));
-    window.run_steps(2);
+    let picture = std::fs::read(sky(folder.path())).expect("a file");
+    give(&mut window, Purpose::Open, &[&File::new("sky.hdr", picture)]);
     shown(&mut window, "my room.glb");
     let environment = opened(&window).environment.expect("an environment");
     assert!(matches!(&environment.source, EnvironmentSource::Memory(file) if file.name == "sky.hdr"), "{environment:?}");
@@ -135,12 +128,10 @@ fn what_cannot_be_opened_is_refused_in_one_message() {
         let said = refused(&mut window);
         assert!(parts.iter().all(|part| said.contains(part)), "{parts:?}: {said}");
     }
-    // A file that is gone by the time it is read.
-    let mut window = without_paths();
-    drop_file(&mut window, Path::new("nowhere/gone.glb"));
-    let said = refused(&mut window);
-    assert!(said.contains("gone.glb cannot be read"), "{said}");
     // What is given next takes the message back.
+    let mut window = without_paths();
+    give(&mut window, Purpose::Open, &[&broken]);
+    refused(&mut window);
     give(&mut window, Purpose::Open, &[&File::new("good.glb", file_with(0.5, "wall"))]);
     shown(&mut window, "good.glb");
     assert!(errors(&window).is_empty());

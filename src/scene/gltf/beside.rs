@@ -1,7 +1,7 @@
 //! The files beside a scene's: in its folder, or in memory with it.
 
 use super::super::files::{File, Files, decoded};
-use ::gltf::json::Root;
+use ::gltf::json::{Root, Scene};
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -21,8 +21,8 @@ pub enum Beside<'a> {
 }
 
 impl<'a> Beside<'a> {
-    /// Reads what a document names.
-    pub fn fetch(self, uri: &str, root: &Root) -> Result<Cow<'a, [u8]>, String> {
+    /// Reads what a document names; `shown` is the number of its scene.
+    pub fn fetch(self, uri: &str, root: &Root, shown: Option<usize>) -> Result<Cow<'a, [u8]>, String> {
         if let Some(scheme) = scheme(uri) {
             return Err(format!("'{uri}' has the scheme '{scheme}', only files beside this one are read; export it as one .glb file"));
         }
@@ -37,7 +37,7 @@ impl<'a> Beside<'a> {
             }
             Self::Files(files) => match files.find(uri)? {
                 Some(File { bytes, .. }) => Ok(Cow::Borrowed(bytes)),
-                None => Err(missing(files, root, uri)),
+                None => Err(missing(files, (root, shown), uri)),
             },
         }
     }
@@ -48,21 +48,21 @@ fn scheme(uri: &str) -> Option<&str> {
     uri.split_once(':').map(|(scheme, _)| scheme).filter(|s| s.len() > 1 && s.chars().all(char::is_alphanumeric))
 }
 
-/// Every file a document names, once.
-pub fn named(root: &Root) -> BTreeSet<String> {
+/// Every file a document names for these of its scenes, once.
+pub fn named(root: &Root, scenes: &[Scene]) -> BTreeSet<String> {
     let buffers = root.buffers.iter().filter_map(|buffer| buffer.uri.clone());
     let images = root.images.iter().filter_map(|image| image.uri.clone());
-    let shown = root.scene.map_or(0, |scene| scene.value());
-    let environment = root.scenes.get(shown).and_then(|scene| {
+    let environments = scenes.iter().filter_map(|scene| {
         let members = super::container::Document::members(&scene.extras).ok()?;
         members.get("environment")?.as_str().map(str::to_owned)
     });
-    buffers.chain(images).chain(environment).filter(|uri| scheme(uri).is_none()).collect()
+    buffers.chain(images).chain(environments).filter(|uri| scheme(uri).is_none()).collect()
 }
 
-/// Says which of the files that a document names were not given; `asked` is one of them (the sky of another of its scenes, say).
-fn missing(files: &Files, root: &Root, asked: &str) -> String {
-    let mut named = named(root);
+/// Says which of the files that a document names for the scene that is shown were not given; `asked` is one of them.
+fn missing(files: &Files, (root, shown): (&Root, Option<usize>), asked: &str) -> String {
+    let scene = shown.and_then(|index| root.scenes.get(index));
+    let mut named = named(root, scene.map_or(&[], std::slice::from_ref));
     named.insert(asked.to_owned());
     let missing: Vec<String> = named.iter().filter(|uri| matches!(files.find(uri), Ok(None))).map(|uri| decoded(uri)).collect();
     let names: Vec<String> = missing.iter().take(MOST_NAMED).map(|name| format!("'{name}'")).collect();

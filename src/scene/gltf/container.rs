@@ -81,7 +81,7 @@ impl<'a> Document<'a> {
             let data = Data::from_source(Source::Uri(uri), None);
             return data.map(|data| Cow::Owned(data.0)).map_err(|e| format!("its data URI is not base64 ({e}); export the file again"));
         }
-        self.beside.fetch(uri, &self.root)
+        self.beside.fetch(uri, &self.root, self.scene)
     }
 
     /// The bytes of a buffer view.

@@ -11,7 +11,7 @@ use crate::report::export;
 use crate::task;
 use crate::ui::compare::{self, Pair};
 use crate::ui::darkroom::{Recipe, develop, on_show};
-use crate::ui::files::limits::mebibytes;
+use crate::ui::format::mebibytes;
 use crate::ui::state::State;
 use crate::ui::text::{ExportText, FilesText, fill};
 use crate::ui::wake::Wake;
@@ -180,10 +180,6 @@ impl Saver {
 
 /// One message at a time: what was said of the file before goes.
 fn tell(state: &mut State, path: &Path, outcome: Result<(), Failure>) {
-    let said = state.export.told.take();
-    if said.is_some() {
-        state.retract(said);
-    }
     let error = outcome.is_err();
     let name = path.display().to_string();
     let text = match outcome {
@@ -194,8 +190,8 @@ fn tell(state: &mut State, path: &Path, outcome: Result<(), Failure>) {
         Err(Failure::NoDownload(why)) => fill(state.say(FilesText::NoDownload), &[&name, &why]),
         Err(Failure::TooLarge(bytes)) => fill(state.say(FilesText::LayersTooLarge), &[&mebibytes(bytes), &mebibytes(MOST_LAYER_BYTES)]),
     };
-    state.export.told = Some(text.clone());
-    state.tell(error, text);
+    let said = state.export.told.take();
+    state.export.told = state.tell_instead(said, error, text);
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! How much can be read into the memory of a page, and what keeps files from being read.
 
+use super::super::format::mebibytes;
 use super::super::text::{FilesText, Lang, fill};
 
 /// Most bytes of a file.
@@ -19,7 +20,6 @@ pub enum Trouble {
     /// They are too many.
     TooMany,
     /// There is no memory for so many bytes of a file.
-    #[cfg(target_arch = "wasm32")]
     NoMemory(String, u64),
     /// A file cannot be read, and what the system says of that.
     Unreadable(String, String),
@@ -33,7 +33,6 @@ impl Trouble {
             Self::TooLarge(name, bytes) => say(FilesText::TooLarge, &[name, &mebibytes(*bytes), &mebibytes(MOST_OF_ONE)]),
             Self::TooMuch(bytes) => say(FilesText::TooMuch, &[&mebibytes(*bytes), &mebibytes(MOST_TOGETHER)]),
             Self::TooMany => say(FilesText::TooMany, &[&MOST_FILES.to_string()]),
-            #[cfg(target_arch = "wasm32")]
             Self::NoMemory(name, bytes) => say(FilesText::NoMemory, &[name, &mebibytes(*bytes)]),
             Self::Unreadable(name, why) => say(FilesText::Unreadable, &[name, why]),
         }
@@ -59,11 +58,6 @@ pub fn check<'a>(files: impl IntoIterator<Item = (&'a str, u64)>) -> Result<(), 
     }
 }
 
-/// How many MiB, rounded up.
-pub fn mebibytes(bytes: u64) -> String {
-    bytes.div_ceil(1 << 20).to_string()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -82,6 +76,10 @@ mod tests {
     fn the_sentence_names_the_file_its_size_and_the_limit() {
         let sentence = Trouble::TooLarge("big.glb".into(), (256 << 20) + 1).sentence(Lang::En);
         assert!(["big.glb", "257 MiB", "256 MiB", "make it smaller"].iter().all(|part| sentence.contains(part)), "{sentence}");
+        let sentence = Trouble::NoMemory("big.glb".into(), 200 << 20).sentence(Lang::En);
+        assert!(["big.glb", "200 MiB"].iter().all(|part| sentence.contains(part)), "{sentence}");
+        let sentence = Trouble::Unreadable("gone.glb".into(), "it moved".into()).sentence(Lang::En);
+        assert!(["gone.glb cannot be read", "it moved"].iter().all(|part| sentence.contains(part)), "{sentence}");
         let sentence = Trouble::TooMuch(600 << 20).sentence(Lang::Zh);
         assert!(["600 MiB", "512 MiB"].iter().all(|part| sentence.contains(part)), "{sentence}");
     }

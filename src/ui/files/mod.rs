@@ -1,10 +1,19 @@
 //! Files that come to the window by what is in them, not by a path: in a page, where there is no file system. Whatever is given
 //! together is sorted by how its names end, and becomes what a person would have opened.
 
-mod intake;
+#[cfg(not(target_arch = "wasm32"))]
+mod desktop;
+mod drops;
+#[cfg(any(test, target_arch = "wasm32"))]
 pub mod limits;
+#[cfg(target_arch = "wasm32")]
+mod page;
 
-pub use intake::{Intake, drops};
+#[cfg(not(target_arch = "wasm32"))]
+pub use desktop::Intake;
+pub use drops::drops;
+#[cfg(target_arch = "wasm32")]
+pub use page::Intake;
 
 use super::compare::Reading;
 use super::live::Live;
@@ -62,9 +71,8 @@ impl Default for FilesState {
 impl FilesState {
     /// What is wrong with the files given last; it goes with the next ones.
     fn refuse(state: &mut State, sentence: String) {
-        let said = state.files.told.replace(sentence.clone());
-        state.retract(said);
-        state.tell(true, sentence);
+        let said = state.files.told.take();
+        state.files.told = state.tell_instead(said, true, sentence);
     }
 }
 
@@ -99,8 +107,8 @@ fn open(state: &mut State, live: &Live, files: Vec<File>) -> Result<(), String> 
     }
     let scene = scenes.pop();
     // An environment that the scene's file names is part of the scene; another one lights it instead.
-    let own = |file: &File| scene.as_ref().is_some_and(|scene| gltf::names(scene, file));
-    let pictures: Vec<File> = others.iter().filter(|file| ends(file, ["hdr", "exr"]) && !own(file)).cloned().collect();
+    let named = scene.as_ref().map(gltf::named).unwrap_or_default();
+    let pictures: Vec<File> = others.iter().filter(|file| ends(file, ["hdr", "exr"]) && !file.is_one_of(&named)).cloned().collect();
     if pictures.len() > 1 {
         return Err(fill(state.say(FilesText::SeveralEnvironments), &[&listed(state, &pictures)]));
     }

@@ -101,13 +101,10 @@ impl Live {
                     self.reload = reading;
                 }
                 let error = if reloaded { fill(state.say(EditText::ReloadFailed), &[&error]) } else { error };
-                state.retract(self.unreadable.replace(error.clone()));
-                state.tell(true, error);
+                self.unreadable = state.tell_instead(self.unreadable.take(), true, error);
                 // With nothing on show yet, show something.
-                if self.shown.is_none()
-                    && let Some(first) = builtin::list().first()
-                {
-                    self.load(Opening::of(first.name));
+                if self.shown.is_none() {
+                    self.load(Opening::of(builtin::first()));
                 }
             }
         }
@@ -152,8 +149,7 @@ impl Live {
                 // Undo must not lead back to what is refused.
                 state.edit.history.replace(&state.edit.edits, &shown.edits);
                 state.edit.edits = shown.edits.clone();
-                state.retract(self.refused_edit.replace(error.0.clone()));
-                state.tell(true, error.0);
+                self.refused_edit = state.tell_instead(self.refused_edit.take(), true, error.0);
             }
         }
     }
