@@ -93,7 +93,12 @@ pub struct StrategySet([u64; COUNT.div_ceil(64)]);
 
 impl StrategySet {
     /// Every strategy.
-    pub const ALL: Self = Self([u64::MAX; COUNT.div_ceil(64)]);
+    pub const ALL: Self = {
+        let mut words = [u64::MAX; COUNT.div_ceil(64)];
+        // Beyond the last strategy there is none, so that sets of the same strategies are equal.
+        words[COUNT / 64] >>= 64 - COUNT % 64;
+        Self(words)
+    };
     /// No strategy.
     pub const NONE: Self = Self([0; COUNT.div_ceil(64)]);
 
@@ -121,6 +126,16 @@ impl StrategySet {
     pub fn contains(&self, strategy: Strategy) -> bool {
         let index = strategy.index();
         self.0[index / 64] >> (index % 64) & 1 == 1
+    }
+
+    /// The strategies that only one of two sets has.
+    pub fn differing(&self, other: &Self) -> Self {
+        Self(std::array::from_fn(|i| self.0[i] ^ other.0[i]))
+    }
+
+    /// How many strategies are in it.
+    pub fn count(&self) -> usize {
+        self.0.iter().map(|word| word.count_ones() as usize).sum()
     }
 
     /// A bit per [`Strategy::index`], 32 to a word, the lowest first; zeros follow.
@@ -187,6 +202,15 @@ mod tests {
             assert_eq!(Strategy::all(k, false).count() as u32, k * (k + 3) / 2);
             assert_eq!(Strategy::all(k, true).count() as u32, k * (k + 5) / 2);
         }
+    }
+
+    #[test]
+    fn sets_of_the_same_strategies_are_equal() {
+        assert_eq!(StrategySet::where_(|_| true), StrategySet::ALL);
+        assert_eq!((StrategySet::ALL.count(), StrategySet::NONE.count()), (COUNT, 0));
+        let [pt, lt] = [StrategySet::path_tracer(), StrategySet::light_tracer()];
+        assert_eq!(pt.differing(&lt), StrategySet::where_(|x| (x.s <= 1) != (x.t <= 1)));
+        assert_eq!(pt.differing(&StrategySet::ALL).count(), COUNT - pt.count());
     }
 
     #[test]

@@ -5,7 +5,7 @@ use super::image_view::Desk;
 use super::link::{self, Share};
 use super::live::{Live, SceneSource};
 use super::pictures::Pictures;
-use super::state::{Maximised, Preferences, State};
+use super::state::{Fingers, Maximised, Preferences, State};
 use super::summary::{self, Summary};
 use super::wake::Wake;
 use super::{files, fonts, help, image_view, inspector, keys, messages, phone, pyramid, space, status_bar, theme, top_bar, touch, tour};
@@ -75,6 +75,13 @@ impl App {
         self.pictures = Pictures::new(ctx);
         self.desk.move_to(ctx);
         self.stage = space::Stage::default();
+        // Fingers that left meanwhile are not missed.
+        self.state.fingers = Fingers::default();
+    }
+
+    /// Wakes the window, whichever the app is in.
+    pub fn wake(&self) -> &Wake {
+        &self.wake
     }
 
     /// What a person chose.
@@ -100,7 +107,7 @@ impl App {
     /// A link to what is on show, from the # on; empty while nothing is. While the scene of the last link is not on show yet, that
     /// link.
     pub fn link(&self) -> String {
-        link::text(&self.state, &self.live).0
+        link::text(&self.state, &self.live)
     }
 
     /// Shows what a link is about: a whole address, or its part from # on. What cannot be followed is said.
@@ -108,9 +115,9 @@ impl App {
         link::open(&mut self.state, &self.live, link);
     }
 
-    /// From now on, links that are copied start with this address (which has no #).
-    pub fn set_link_base(&mut self, address: String) {
-        self.state.link.base = address;
+    /// From now on, links that are copied start with this address (which has no #); where there is no clipboard, none are copied.
+    pub fn set_link_base(&mut self, address: String, clipboard: bool) {
+        (self.state.link.base, self.state.link.no_clipboard) = (address, !clipboard);
     }
 
     /// Where the centre of a pixel is on the screen.
@@ -202,7 +209,7 @@ impl App {
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
         self.state.phone = theme::is_small(ctx);
-        theme::choose(ctx, &self.state.prefs, self.state.phone || self.state.touch);
+        theme::choose(ctx, &self.state.prefs, self.state.for_fingers());
         self.sync(ctx);
     }
 

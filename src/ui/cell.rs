@@ -29,7 +29,7 @@ const FINGERS: f32 = 112.0;
 
 /// The size of a cell: as wide as chosen, with the film's shape.
 pub fn size(state: &State) -> Vec2 {
-    let width = if state.phone || state.touch { state.prefs.cell.max(FINGERS) } else { state.prefs.cell };
+    let width = if state.for_fingers() { state.prefs.cell.max(FINGERS) } else { state.prefs.cell };
     let aspect = state.size[1] as f32 / state.size[0].max(1) as f32;
     vec2(width, (width * aspect).clamp(66.0, 2.0 * width))
 }

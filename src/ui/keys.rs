@@ -1,6 +1,7 @@
 //! Every key, in one table: it is what the program obeys, what the help window lists and what tooltips quote.
 
 use super::edit::history;
+use super::image_view::{EXPOSURES, OFFSETS};
 use super::inspector;
 use super::space;
 use super::state::{Placement, Source, State};
@@ -254,11 +255,11 @@ pub fn release_after_click(ctx: &egui::Context) {
 /// Does it.
 pub fn perform(state: &mut State, action: Action, index: usize, shift: bool) {
     match action {
-        Action::Exposure => state.exposure = (state.exposure + if shift { -0.5 } else { 0.5 }).clamp(-20.0, 20.0),
+        Action::Exposure => state.exposure = (state.exposure + if shift { -0.5 } else { 0.5 }).clamp(*EXPOSURES.start(), *EXPOSURES.end()),
         Action::Offset => {
             let offset = state.view.offset + if shift { -0.1 } else { 0.1 };
             // Steps of a tenth stay tenths.
-            state.view.offset = ((offset * 1000.0).round() / 1000.0).clamp(-10.0, 10.0);
+            state.view.offset = ((offset * 1000.0).round() / 1000.0).clamp(*OFFSETS.start(), *OFFSETS.end());
         }
         Action::Nudge => nudge(state, index, if shift { 10 } else { 1 }),
         Action::Sample => step_sample(state, shift),

@@ -45,11 +45,19 @@ use crate::engine::Mode;
 use crate::film::difference::Metric;
 use crate::film::tonemap::ToneMap;
 use crate::scene::{Lens, Pose, SceneEdits};
+use eframe::egui::Vec2;
+use std::sync::LazyLock;
 
 /// Version of the pieces' meaning. A new piece needs no new version: who does not know it says so.
 pub const LINK_VERSION: u32 = 1;
 /// Longest link that is read, bytes.
 pub const MOST_BYTES: usize = 8192;
+
+/// What the pieces say at the first start: a link leaves that out.
+static START: LazyLock<Vec<String>> = LazyLock::new(|| {
+    let start = Link::default();
+    pieces::TABLE.iter().map(|piece| (piece.write)(&start)).collect()
+});
 
 /// What is shown: something everybody has, or a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -193,20 +201,33 @@ pub struct Space {
 impl Link {
     /// As text, from the # on.
     pub fn to_text(&self) -> String {
-        let start = Self::default();
         let mut text = String::from("#");
         let mut add = |key: &str, value: &str| {
             let and = if text.len() > 1 { "&" } else { "" };
             text.push_str(&format!("{and}{key}={}", words::encode(value)));
         };
-        for piece in pieces::TABLE {
+        for (piece, start) in pieces::TABLE.iter().zip(START.iter()) {
             let value = (piece.write)(self);
-            if !value.is_empty() && (piece.always || value != (piece.write)(&start)) {
+            if !value.is_empty() && (piece.always || value != *start) {
                 add(piece.key, &value);
             }
         }
         edits::write(&self.edits).iter().for_each(|(key, value)| add(key, value));
         text
+    }
+
+    /// The same view on a film of half the width and height.
+    pub fn halved(mut self) -> Self {
+        let size = self.size.map(|side| (side / 2).max(1));
+        let scale = [0, 1].map(|i| size[i] as f32 / self.size[i].max(1) as f32);
+        let place = |i: usize, at: u32| (u64::from(at) * u64::from(size[i]) / u64::from(self.size[i].max(1))) as u32;
+        self.pixel = self.pixel.map(|[x, y]| [place(0, x), place(1, y)]);
+        if let Placement::Free { zoom, centre } = &mut self.picture.placement {
+            *zoom /= scale[0];
+            *centre = *centre * Vec2::from(scale);
+        }
+        self.size = size;
+        self
     }
 
     /// Understands a link: a whole address, or its part from # on. What could not be understood is named.

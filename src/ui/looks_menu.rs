@@ -1,10 +1,10 @@
 //! The menu of the window's own looks: which panels, theme, contrast, size, motion, language.
 
+use super::link;
 use super::render_menu::menu;
 use super::state::{Maximised, Preferences, State};
 use super::text::{Lang, LooksText, SummaryText, Text, TourText};
 use eframe::egui::Ui;
-use eframe::egui::containers::panel::PanelState;
 
 /// How large everything can be drawn.
 pub const SCALES: &[f32] = &[0.75, 1.0, 1.25, 1.5, 2.0];
@@ -54,6 +54,6 @@ pub fn contents(ui: &mut Ui, state: &mut State) {
 fn reset_layout(ui: &Ui, state: &mut State) {
     let Preferences { inspector_open, pyramid_open, space_open, camera_open, cell, .. } = Preferences::default();
     state.prefs = Preferences { inspector_open, pyramid_open, space_open, camera_open, cell, ..state.prefs.clone() };
-    state.maximised = Maximised::None;
-    ui.data_mut(|data| data.remove_by_type::<PanelState>());
+    (state.maximised, state.shares) = (Maximised::None, [None; 3]);
+    link::let_go(ui, state);
 }

@@ -1,9 +1,11 @@
 //! The window on a desktop. When the graphics device it is drawn with is lost (a driver that restarts, a card that goes away,
 //! memory that runs out), it is closed and opened again, and the same [`App`](super::App) goes on in it.
 
+use super::state::FILM;
 use super::watch::{Losses, Watch};
 use super::window::{Contents, EveryPass, Room, Window};
 use super::{SceneSource, Start};
+use crate::scene::builtin;
 use eframe::egui;
 use std::cell::RefCell;
 use std::fmt;
@@ -13,8 +15,6 @@ use std::rc::Rc;
 use std::time::Duration;
 use web_time::Instant;
 
-/// The film's size at the start, pixels.
-const FILM: [u32; 2] = [512, 512];
 /// A driver that restarts needs a moment before it gives out a device.
 const MOMENT: Duration = Duration::from_millis(500);
 
@@ -52,7 +52,7 @@ pub struct Hooks<'a> {
 /// # Errors
 /// If there is no display or no usable graphics adapter, or the adapter fails again and again.
 pub fn run(source: Option<SceneSource>) -> Result<(), WindowError> {
-    let source = source.unwrap_or_else(|| SceneSource::Named(first_scene()));
+    let source = source.unwrap_or_else(|| SceneSource::Named(builtin::first().to_owned()));
     open(Start { source, size: FILM }, Hooks::default())
 }
 
@@ -134,11 +134,6 @@ fn explain(error: &eframe::Error) -> String {
         }
         other => format!("the window cannot be opened: {other}"),
     }
-}
-
-/// The scene to start with.
-fn first_scene() -> String {
-    crate::scene::builtin::list().first().map_or(String::new(), |scene| scene.name.to_owned())
 }
 
 /// Without a display the event loop could only panic: better to say so.

@@ -6,6 +6,10 @@ use super::text::{StudyText, Text};
 use super::widgets::{role_help, role_name};
 use crate::bdpt::{Existence, Role, Strategy, StrategySet};
 use eframe::egui::{Button, Slider, Ui};
+use std::ops::RangeInclusive;
+
+/// How wide a cell may be, points.
+pub const CELLS: RangeInclusive<f32> = 64.0..=260.0;
 
 const FAMILIES: [Role; 5] = [Role::EyeHitsLight, Role::NextEvent, Role::Connect, Role::LightTracer, Role::LightHitsLens];
 
@@ -64,6 +68,6 @@ pub fn cells(ui: &mut Ui, state: &mut State) {
         }
         ui.separator();
         let label = ui.label(state.say(Text::CellSize));
-        ui.add(Slider::new(&mut state.prefs.cell, 64.0..=260.0).show_value(false)).labelled_by(label.id);
+        ui.add(Slider::new(&mut state.prefs.cell, CELLS).show_value(false)).labelled_by(label.id);
     });
 }

@@ -32,8 +32,9 @@ impl State {
     /// Can the image view be seen?
     pub fn image_on_show(&self) -> bool {
         match self.maximised {
+            _ if self.covered() => false,
             Maximised::Image => true,
-            Maximised::None if self.phone => !self.menu,
+            Maximised::None if self.phone => true,
             Maximised::None => !(self.narrow && self.space_in_front),
             Maximised::Space | Maximised::Inspector | Maximised::Pyramid => false,
         }
@@ -42,11 +43,17 @@ impl State {
     /// Can the pyramid be seen?
     pub fn pyramid_on_show(&self) -> bool {
         match self.maximised {
+            _ if self.covered() => false,
             Maximised::Pyramid => true,
             Maximised::None if self.phone => self.beside == Maximised::Pyramid,
             Maximised::None => self.prefs.pyramid_open,
             Maximised::Image | Maximised::Space | Maximised::Inspector => false,
         }
+    }
+
+    /// Has the menu of a small window the panels' room?
+    fn covered(&self) -> bool {
+        self.phone && self.menu
     }
 }
 
@@ -65,5 +72,22 @@ mod tests {
             assert!(state.image_on_show() && !state.compare.flipped);
             assert_eq!(state.compare.a, Source::Strategy(Strategy::new(1, 2), Mode::Raw));
         }
+    }
+
+    #[test]
+    fn a_phones_menu_covers_every_panel() {
+        let mut state = State::new(Preferences::default(), [64, 64]);
+        for (maximised, beside) in
+            [(Maximised::Image, Maximised::Image), (Maximised::Pyramid, Maximised::Image), (Maximised::None, Maximised::Pyramid)]
+        {
+            (state.phone, state.menu, state.maximised, state.beside) = (true, false, maximised, beside);
+            assert_eq!(state.image_on_show(), maximised != Maximised::Pyramid);
+            assert_eq!(state.pyramid_on_show(), maximised != Maximised::Image);
+            state.menu = true;
+            assert!(!state.image_on_show() && !state.pyramid_on_show());
+        }
+        // A desktop has no such menu.
+        (state.phone, state.maximised) = (false, Maximised::None);
+        assert!(state.image_on_show() && state.pyramid_on_show());
     }
 }

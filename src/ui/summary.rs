@@ -56,8 +56,8 @@ pub enum Block {
     },
 }
 
-/// The whole.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// The whole; by default there is nothing to say.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
     /// Its language.
     pub lang: Lang,
@@ -257,7 +257,5 @@ mod tests {
         let text = html(&[Block::Heading(name.clone()), Block::Line(name.clone()), Block::List(vec![name]), table]);
         assert!(!text.contains("<img") && !text.contains("=\"alert") && !text.contains("&\""), "{text}");
         assert_eq!(text.matches("&lt;img").count(), 8);
-        // An escape that does nothing would be found.
-        assert!("<h2><img src=x></h2>".contains("<img"));
     }
 }

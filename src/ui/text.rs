@@ -258,6 +258,8 @@ mod tests {
         check(CheckText::ALL);
         check(EditText::ALL);
         check(ExportText::ALL);
+        check(FilesText::ALL);
+        check(LinkText::ALL);
         check(LooksText::ALL);
         check(PhoneText::ALL);
         check(InspectText::ALL);
@@ -267,6 +269,42 @@ mod tests {
         check(TourText::ALL);
         check(ViewText::ALL);
         check(WebText::ALL);
+    }
+
+    /// What the page says by itself (`web/texts.js`), as pairs of a key and its texts.
+    fn page(lang: &str) -> Vec<(String, Vec<String>)> {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("web/texts.js");
+        let source = std::fs::read_to_string(path).unwrap();
+        let (_, from) = source.split_once(&format!("\n  {lang}: {{\n")).unwrap();
+        let (table, _) = from.split_once("\n  },").unwrap();
+        let mut found: Vec<(String, Vec<String>)> = Vec::new();
+        for line in table.lines() {
+            let rest = match line.strip_prefix("    ").filter(|line| line.starts_with(|c: char| c.is_ascii_lowercase())) {
+                Some(entry) => {
+                    let (key, rest) = entry.split_once(": ").unwrap();
+                    found.push((key.to_owned(), Vec::new()));
+                    rest
+                }
+                None => line,
+            };
+            // Between straight quotes; the texts themselves have curved ones.
+            found.last_mut().unwrap().1.extend(rest.split('"').skip(1).step_by(2).map(str::to_owned));
+        }
+        found
+    }
+
+    #[test]
+    fn the_page_has_the_same_texts_in_both_languages() {
+        let (en, zh) = (page("en"), page("zh"));
+        assert!(en.len() > 10 && en.iter().any(|(key, texts)| key == "memory" && texts.len() == 3), "{en:?}");
+        let shape = |texts: &[(String, Vec<String>)]| {
+            let places = |text: &String| text.matches("{}").count();
+            texts.iter().map(|(key, texts)| (key.clone(), texts.iter().map(places).collect())).collect::<Vec<(String, Vec<usize>)>>()
+        };
+        assert_eq!(shape(&en), shape(&zh));
+        let chinese = |text: &str| text.chars().any(|c| ('\u{4e00}'..='\u{9fff}').contains(&c));
+        assert!(zh.iter().flat_map(|(_, texts)| texts).all(|text| chinese(text)));
+        assert!(!en.iter().flat_map(|(_, texts)| texts).any(|text| text.trim().is_empty() || chinese(text)));
     }
 
     #[test]

@@ -7,10 +7,11 @@ use super::live::Live;
 use super::state::State;
 use super::text::{Lang, Text};
 use super::theme;
-use super::widgets::{finite, keep_together, labelled};
+use super::widgets::{Sign, finite, keep_together, labelled, sign_button};
 use super::{looks_menu, render_menu, scene_menu};
-use crate::bdpt::{HeuristicKind, Strategy, StrategySet};
+use crate::bdpt::{HeuristicKind, MAX_EDGES, Strategy, StrategySet};
 use eframe::egui::{Align, Button, ComboBox, DragValue, Layout, Ui, UiBuilder};
+use std::ops::RangeInclusive;
 
 /// The heuristics on offer: which, its name, what it does.
 pub const HEURISTICS: &[(HeuristicKind, Text, Text)] = &[
@@ -21,6 +22,11 @@ pub const HEURISTICS: &[(HeuristicKind, Text, Text)] = &[
     (HeuristicKind::Uniform, Text::Uniform, Text::HelpUniform),
 ];
 
+/// What β may be.
+pub const BETAS: RangeInclusive<f32> = 0.0..=16.0;
+/// What the cutoff's threshold may be.
+pub const CUTOFFS: RangeInclusive<f32> = 0.0..=1.0;
+
 /// Shows the bar.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     ui.horizontal_wrapped(|ui| {
@@ -28,7 +34,6 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
         ui.separator();
         estimator(ui, state, live);
         render_menu::show(ui, state);
-        ui.separator();
         pause(ui, state);
         export::show(ui, state, live);
         at_the_right(ui, |ui| window_switches(ui, state));
@@ -47,8 +52,10 @@ pub fn estimator(ui: &mut Ui, state: &mut State, live: &Live) {
 
 /// Stops the rendering, or lets it go on.
 pub fn pause(ui: &mut Ui, state: &mut State) {
-    let name = state.say(if state.paused { Text::Resume } else { Text::Pause });
-    if ui.button(name).on_hover_text(keys::hint(state, Text::KeyPause, Action::Pause)).clicked() {
+    let (text, shown) = if state.paused { (Text::Resume, Sign::Resume) } else { (Text::Pause, Sign::Pause) };
+    let name = state.say(text);
+    let button = if state.phone { ui.button(name) } else { sign_button(ui, shown, name) };
+    if button.on_hover_text(keys::hint(state, Text::KeyPause, Action::Pause)).clicked() {
         state.paused = !state.paused;
     }
 }
@@ -80,11 +87,11 @@ fn window_switches(ui: &mut Ui, state: &mut State) {
     ui.toggle_value(&mut state.prefs.pyramid_open, label).on_hover_text(help);
     ui.separator();
     link::button(ui, state);
-    let (name, other) = match state.prefs.lang {
-        Lang::En => ("中文", Lang::Zh),
-        Lang::Zh => ("English", Lang::En),
+    let ([shown, name], other) = match state.prefs.lang {
+        Lang::En => (["中", "中文"], Lang::Zh),
+        Lang::Zh => (["EN", "English"], Lang::En),
     };
-    if ui.button(name).on_hover_text(state.say(Text::HelpLanguage)).clicked() {
+    if sign_button(ui, Sign::Letters(shown), name).on_hover_text(state.say(Text::HelpLanguage)).clicked() {
         state.prefs.lang = other;
     }
     looks_menu::show(ui, state);
@@ -138,12 +145,12 @@ fn heuristic(ui: &mut Ui, state: &mut State) {
     match kind {
         HeuristicKind::Power => {
             labelled(ui, "β", hint(Text::HelpBeta), |ui| {
-                ui.add(DragValue::new(&mut h.beta).custom_parser(finite).range(0.0..=16.0).speed(0.02).max_decimals(2))
+                ui.add(DragValue::new(&mut h.beta).custom_parser(finite).range(BETAS).speed(0.02).max_decimals(2))
             });
         }
         HeuristicKind::Cutoff => {
             labelled(ui, "A", hint(Text::HelpA), |ui| {
-                ui.add(DragValue::new(&mut h.cutoff).custom_parser(finite).range(0.0..=1.0).speed(0.005).max_decimals(3))
+                ui.add(DragValue::new(&mut h.cutoff).custom_parser(finite).range(CUTOFFS).speed(0.005).max_decimals(3))
             });
         }
         _ => {}
@@ -154,6 +161,6 @@ fn numbers(ui: &mut Ui, state: &mut State) {
     let lang = state.prefs.lang;
     let settings = &mut state.settings;
     labelled(ui, "K", Text::HelpK.in_language(lang), |ui| {
-        ui.add(DragValue::new(&mut settings.max_edges).custom_parser(finite).range(1..=64).speed(0.05))
+        ui.add(DragValue::new(&mut settings.max_edges).custom_parser(finite).range(1..=MAX_EDGES).speed(0.05))
     });
 }

@@ -50,7 +50,7 @@ pub fn show(ui: &mut Ui, state: &mut State) {
     let Some(text) = STEPS.get(state.prefs.tour).copied() else { return };
     let (step, steps) = (state.prefs.tour + 1, STEPS.len());
     let low = ui.available_width() < LEAST;
-    let sentence = if state.phone || state.touch { state.say(for_fingers(text)) } else { state.say(text) };
+    let sentence = if state.for_fingers() { state.say(by_fingers(text)) } else { state.say(text) };
     ui.horizontal(|ui| {
         let words = fill(state.say(TourText::Step), &[&step.to_string(), &steps.to_string()]);
         ui.label(RichText::new(words).color(ui.visuals().weak_text_color()));
@@ -74,7 +74,7 @@ pub fn show(ui: &mut Ui, state: &mut State) {
 }
 
 /// The same step where there is no keyboard.
-fn for_fingers(text: TourText) -> PhoneText {
+fn by_fingers(text: TourText) -> PhoneText {
     match text {
         TourText::Pixel => PhoneText::TourPixel,
         TourText::Sample => PhoneText::TourSample,

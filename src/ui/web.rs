@@ -10,10 +10,12 @@ pub mod page;
 
 use self::address::Address;
 use super::drawn::{Drawn, Draws, Why, Wish};
+use super::state::FILM;
 use super::text::{Lang, WebText, fill};
 use super::watch::{Losses, Watch};
 use super::window::{Pass, Room, Window};
 use super::{SceneSource, Start};
+use crate::scene::builtin;
 use crate::task::{self, Bell};
 use eframe::{WebRunner, egui};
 use std::cell::RefCell;
@@ -25,8 +27,6 @@ use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_futures::spawn_local;
 use web_time::Instant;
 
-/// The film's size at the start, pixels.
-const FILM: [u32; 2] = [512, 512];
 /// A driver that restarts needs a moment before it gives out a device.
 const MOMENT: Duration = Duration::from_millis(500);
 
@@ -47,10 +47,10 @@ fn panicked(info: &PanicHookInfo<'_>) {
 async fn keep_open() {
     let asked = page::query("renderer");
     let wish = Wish::read(asked.as_deref());
-    let scene = crate::scene::builtin::list().first().map_or(String::new(), |scene| scene.name.to_owned());
     let half = page::take_restart_hint();
     let mut watcher = Watcher::new(wish.err(), half);
-    let start = Start { source: SceneSource::Named(scene), size: if half { FILM.map(|side| side / 2) } else { FILM } };
+    let start =
+        Start { source: SceneSource::Named(builtin::first().to_owned()), size: if half { FILM.map(|side| side / 2) } else { FILM } };
     let mut drawn = graphics::choose(wish.unwrap_or(Wish::Any)).await;
     let told = Rc::new(RefCell::new(None));
     let news = Rc::clone(&told);
@@ -84,7 +84,7 @@ struct Shown {
     watch: Watch,
     /// Rings when it is to be closed.
     closing: Bell,
-    _listeners: [Closure<dyn FnMut()>; 2],
+    _listener: Closure<dyn FnMut()>,
 }
 
 impl Shown {
@@ -93,21 +93,18 @@ impl Shown {
         let (watch, closing) = (Watch::default(), Bell::default());
         let (canvas, runner) = (page::new_canvas()?, WebRunner::new());
         let (place, guard, bell, on_canvas) = (Rc::clone(room), watch.clone(), closing.clone(), canvas.clone());
-        let listeners = Rc::new(RefCell::new(None));
-        let listening = Rc::clone(&listeners);
+        let listener = Rc::new(RefCell::new(None));
+        let listening = Rc::clone(&listener);
         let create: eframe::AppCreator<'static> = Box::new(move |context| {
             let (watch, window) = (guard.clone(), context.egui_ctx.clone());
             let lost = Closure::<dyn FnMut()>::new(move || watch.note("WebGL context lost".to_owned(), &window));
             drop(on_canvas.add_event_listener_with_callback("webglcontextlost", lost.as_ref().unchecked_ref()));
-            let window = context.egui_ctx.clone();
-            let reported = Closure::<dyn FnMut()>::new(move || window.request_repaint());
-            page::on_report(reported.as_ref().unchecked_ref());
-            listening.replace(Some([lost, reported]));
+            listening.replace(Some(lost));
             Ok(Box::new(Window::new(place, guard, context, move |_: &egui::Context| bell.ring())?))
         });
         runner.start(canvas, graphics::options(by), create).await.map_err(|error| text_of(&error))?;
-        let listeners = listeners.take().ok_or("the window was not made")?;
-        Ok(Self { runner, watch, closing, _listeners: listeners })
+        let listener = listener.take().ok_or("the window was not made")?;
+        Ok(Self { runner, watch, closing, _listener: listener })
     }
 
     /// Closes it; returns why.
@@ -133,6 +130,7 @@ struct Watcher {
     lang: Option<Lang>,
     /// What the page says: of errors, and of all else.
     said: [String; 2],
+    listening: bool,
     drawn: bool,
     rendered: bool,
 }
@@ -147,6 +145,7 @@ impl Watcher {
             halved,
             lang: None,
             said: Default::default(),
+            listening: false,
             drawn: false,
             rendered: false,
             access: access::Access::default(),
@@ -155,9 +154,13 @@ impl Watcher {
 
     /// `news`: how the window is drawn, if that has changed.
     fn pass(&mut self, mut pass: Pass<'_>, news: Option<Drawn>) {
+        if !std::mem::replace(&mut self.listening, true) {
+            let wake = pass.app.wake().clone();
+            page::on_report(move || wake.now());
+        }
         self.access.update(&mut pass);
-        let Pass { app, ctx, .. } = pass;
-        self.address.pass(app, ctx);
+        let app = pass.app;
+        self.address.pass(app);
         let loaded = app.live().scene().is_some() && app.live().loading().is_none();
         let state = app.state_mut();
         let lang = state.prefs.lang;

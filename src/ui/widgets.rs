@@ -5,7 +5,8 @@ use super::theme;
 use crate::bdpt::{Role as StrategyRole, Strategy};
 use eframe::egui::text::{LayoutJob, TextWrapping};
 use eframe::egui::{
-    self, Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
+    self, Align2, Button, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, StrokeKind, Ui,
+    WidgetInfo, pos2, vec2,
 };
 
 /// Fills what a picture leaves of its panel: what it covers need not be painted twice.
@@ -64,6 +65,47 @@ pub fn full_name(strategy: Strategy, lang: Lang) -> String {
 pub fn finite(text: &str) -> Option<f64> {
     let text: String = text.chars().filter(|c| !c.is_whitespace()).map(|c| if c == '−' { '-' } else { c }).collect();
     text.trim_end_matches(|c: char| !c.is_ascii_digit() && c != '.').parse().ok().filter(|value: &f64| value.is_finite())
+}
+
+/// What a button shows that has no room for its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sign {
+    /// Two links of a chain.
+    Link,
+    /// Two bars.
+    Pause,
+    /// A triangle to the right.
+    Resume,
+    /// Letters.
+    Letters(&'static str),
+}
+
+/// A button that shows a sign; its name is for who hears it.
+pub fn sign_button(ui: &mut Ui, sign: Sign, name: &str) -> Response {
+    let height = ui.spacing().interact_size.y;
+    let letters = if let Sign::Letters(letters) = sign { letters } else { "" };
+    let response = ui.add(Button::new(letters).min_size(vec2(1.25 * height, height)));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
+    let (painter, colour, middle) = (ui.painter(), ui.style().interact(&response).text_color(), response.rect.center());
+    match sign {
+        Sign::Link => {
+            for side in [-3.5, 3.5] {
+                let link = Rect::from_center_size(middle + vec2(side, 0.0), vec2(9.5, 6.5));
+                painter.rect_stroke(link, CornerRadius::same(3), Stroke::new(1.5, colour), StrokeKind::Middle);
+            }
+        }
+        Sign::Pause => {
+            for side in [-2.75, 2.75] {
+                painter.rect_filled(Rect::from_center_size(middle + vec2(side, 0.0), vec2(3.0, 10.0)), CornerRadius::ZERO, colour);
+            }
+        }
+        Sign::Resume => {
+            let corners = [vec2(-3.5, -5.0), vec2(5.0, 0.0), vec2(-3.5, 5.0)].map(|corner| middle + corner).to_vec();
+            painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
+        }
+        Sign::Letters(_) => {}
+    }
+    response
 }
 
 /// A horizontal bar filled to `fraction`.

@@ -27,6 +27,12 @@ fn scene(window: &Harness<'static, App>) -> String {
     window.state().live().scene().expect("a scene").name.clone()
 }
 
+/// Is it said that something of a link was not followed?
+fn ignores(window: &Harness<'static, App>, lang: Lang) -> bool {
+    let sentence = LinkText::Ignored.in_language(lang).split("{}").next().expect("a beginning");
+    said(window).contains(sentence)
+}
+
 /// A window in which nearly everything is otherwise than at the first start.
 fn chosen() -> Harness<'static, App> {
     let mut window = showing(Arc::new(builtin::open("bokeh").expect("a built-in scene opens")));
@@ -72,12 +78,13 @@ fn a_link_shows_the_same_path_and_the_same_numbers_elsewhere() {
         let app = window.state();
         assert_eq!(**app.live().record(app.state()).expect("a record"), *record);
         assert_record(&window);
-        assert_eq!((app.link(), said(&window).contains("foo")), (link.clone(), false));
+        assert_eq!((app.link(), ignores(&window, Lang::Zh)), (link.clone(), false));
         assert_eq!(app.state().hidden, source.state().state().hidden);
         window.get_by_role_and_label(Role::Button, LinkText::CopyLink.in_language(Lang::Zh));
     }
-    // The control: another seed is another path.
-    let window = linked(&link.replace("seed=77", "seed=78"));
+    // The control: another seed is another path, and what is not known is said.
+    let window = linked(&link.replace("seed=77", "seed=78&foo=bar"));
+    assert!(ignores(&window, Lang::Zh));
     assert_ne!(window.state().live().record(window.state().state()).expect("a record").eye, record.eye);
 }
 
@@ -189,7 +196,7 @@ fn a_link_is_copied_by_button_and_key_and_that_is_said_for_a_moment() {
     assert!(text.starts_with("#v=1&est=3&lang=en&scene=cornell&size=64x64"), "{text}");
     window.run_steps(2);
     window.get_by_label_contains("Link copied");
-    window.state_mut().set_link_base("https://example.org/x/".to_owned());
+    window.state_mut().set_link_base("https://example.org/x/".to_owned(), true);
     window.state_mut().state_mut().selection.sample = 3;
     window.state_mut().state_mut().compare.keep = true;
     window.run_steps(2);
@@ -205,6 +212,66 @@ fn a_link_is_copied_by_button_and_key_and_that_is_said_for_a_moment() {
     std::thread::sleep(Duration::from_millis(4100));
     window.run_steps(2);
     assert!(window.query_by_label_contains("Link copied").is_none());
+}
+
+#[test]
+fn where_nothing_can_be_copied_the_address_bar_is_named_instead() {
+    let mut window = cornell();
+    window.state_mut().set_link_base("http://192.168.0.7/x/".to_owned(), false);
+    window.get_by_role_and_label(Role::Button, "Copy link").click();
+    assert_eq!(copied(&mut window), None);
+    window.get_by_label_contains("from the address bar");
+    assert!(window.query_by_label_contains("Link copied").is_none());
+}
+
+#[test]
+fn a_link_that_waits_is_copied_as_it_came() {
+    let text = "#v=1&est=3&lang=en&file=room.glb&envfile=sky.hdr&px=7,9";
+    let mut window = linked(text);
+    // What is on show meanwhile is not what is copied: nor are the remarks about it.
+    until(&mut window, "a whole pass", |app| app.live().frame().is_some() && app.live().first_pass().is_none());
+    window.state_mut().state_mut().compare.keep = true;
+    window.run_steps(2);
+    assert!(window.state().state().compare.b.is_some());
+    window.get_by_role_and_label(Role::Button, "Copy link").click();
+    assert_eq!(copied(&mut window).as_deref(), Some(text));
+    window.run_steps(2);
+    for name in ["room.glb does not travel", "sky.hdr does not travel"] {
+        window.get_by_label_contains(name);
+    }
+    assert!(window.query_by_label_contains("Kept pictures").is_none());
+}
+
+#[test]
+fn only_what_cannot_be_is_left_out_of_what_is_loaded() {
+    let window = linked("#scene=spots&inside=attic&env=0.5,0.5,0.5&turn=20&k=3");
+    let app = window.state();
+    let chosen = app.live().opened().expect("a scene").environment.clone().expect("an environment");
+    assert_eq!((chosen.source, chosen.rotation), (EnvironmentSource::Constant(bdpt_explorer::math::Vec3::splat(0.5)), 20.0));
+    assert!(said(&window).contains("“inside” was left out") && !said(&window).contains("“env”"), "{}", said(&window));
+    assert!(app.link().contains("&env=0.5,0.5,0.5&turn=20") && !app.link().contains("inside"), "{}", app.link());
+}
+
+#[test]
+fn a_file_on_show_meanwhile_is_told_from_another_of_its_name() {
+    use bdpt_explorer::scene::files::{File, Files};
+    let given = |own: &str| {
+        let bytes = builtin::list().iter().find(|x| x.name == own).expect("a built-in scene").bytes;
+        let name = "meanwhile.glb";
+        Opening { files: Some(Files::new(File::new(name, bytes.to_vec()), Vec::new())), ..Opening::of(name) }
+    };
+    for (next, waits) in [("spots", true), ("furnace", false)] {
+        let mut window = cornell();
+        window.state_mut().state_mut().open = Some(given("spots"));
+        window.state_mut().open_link("#file=room.glb&n=5");
+        until(&mut window, "the first file", |app| app.live().opened() == Some(&given("spots")));
+        settle(&mut window);
+        assert!(said(&window).contains("room.glb"), "it is still asked for: {}", said(&window));
+        window.state_mut().state_mut().open = Some(given(next));
+        until(&mut window, "the next file", |app| app.live().opened() == Some(&given(next)) && app.live().loading().is_none());
+        settle(&mut window);
+        assert_eq!(said(&window).contains("room.glb"), waits, "{next}: {}", said(&window));
+    }
 }
 
 #[test]

@@ -66,6 +66,32 @@ fn the_layout_can_be_reset() {
 }
 
 #[test]
+fn a_panel_that_was_dragged_has_its_first_size_again_with_the_layout() {
+    let mut window = cornell();
+    window.run_steps(3);
+    let left = |window: &Harness<'static, App>| window.get_by_role_and_label(Role::Button, "Splits").rect().left();
+    let first = left(&window);
+    // The edge between the image and the inspector, which has 470 of the window's 1440 points.
+    let edge = 970.0;
+    let at = |x: f32| egui::pos2(x, 450.0);
+    window.hover_at(at(edge));
+    window.run_steps(2);
+    window.drag_at(at(edge));
+    window.run_steps(2);
+    window.hover_at(at(edge - 80.0));
+    window.run_steps(2);
+    window.drop_at(at(edge - 80.0));
+    window.run_steps(3);
+    assert!(left(&window) < first - 60.0, "{} {first}", left(&window));
+    assert!(window.state().state().shares[0].is_some());
+    open(&mut window);
+    click(&mut window, Role::Button, LooksText::ResetLayout.in_language(Lang::En));
+    window.run_steps(3);
+    assert_eq!(window.state().state().shares, [None; 3]);
+    assert!((left(&window) - first).abs() < 1.0, "{} {first}", left(&window));
+}
+
+#[test]
 fn preferences_survive_and_older_ones_are_read() {
     use bdpt_explorer::ui::state::Preferences;
     let changed = Preferences { contrast: true, scale: 1.25, reduced_motion: true, dark: false, tour: 3, ..Preferences::default() };

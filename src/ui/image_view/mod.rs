@@ -12,6 +12,8 @@ mod toolbar;
 use super::camera_bar;
 use super::compare::{self, Display, Missing, Pair, Sourced};
 pub use desk::{Desk, Replayed};
+pub use navigate::ZOOMS;
+pub use toolbar::{EXPOSURES, OFFSETS};
 
 use super::darkroom::{Darkroom, Place, Print};
 use super::live::Live;

@@ -6,6 +6,10 @@ use super::super::mark_pick;
 use super::super::state::{Placement, State};
 use super::super::touch::{self, Click};
 use eframe::egui::{Rect, Response, Ui, Vec2, vec2};
+use std::ops::RangeInclusive;
+
+/// How large a pixel can be made, points.
+pub const ZOOMS: RangeInclusive<f32> = 0.05..=200.0;
 
 /// Zoom, pan and pick; where the film ends up.
 pub fn show(ui: &Ui, state: &mut State, live: &Live, response: &Response, panel: Rect) -> Rect {
@@ -24,7 +28,7 @@ pub fn show(ui: &Ui, state: &mut State, live: &Live, response: &Response, panel:
     let pinch = touch::pinch(ui, response).filter(|_| !steered);
     if let Some(pinch) = pinch {
         let under = centre + (pinch.about - pinch.pan - panel.center()) / zoom;
-        zoom = (zoom * pinch.zoom).clamp(0.05, 200.0);
+        zoom = (zoom * pinch.zoom).clamp(*ZOOMS.start(), *ZOOMS.end());
         centre = under - (pinch.about - panel.center()) / zoom;
         moved = true;
     } else if response.dragged() && !steered && !state.fingers.several() {
@@ -36,7 +40,7 @@ pub fn show(ui: &Ui, state: &mut State, live: &Live, response: &Response, panel:
         let factor = ui.input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y * 0.004).exp());
         if factor != 1.0 {
             let under = centre + (cursor - panel.center()) / zoom;
-            zoom = (zoom * factor).clamp(0.05, 200.0);
+            zoom = (zoom * factor).clamp(*ZOOMS.start(), *ZOOMS.end());
             centre = under - (cursor - panel.center()) / zoom;
             moved = true;
         }

@@ -11,6 +11,12 @@ use crate::engine::Mode;
 use crate::film::tonemap::{ToneMap, fitting_exposure};
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{Button, ComboBox, DragValue, PopupCloseBehavior, Role, ScrollArea, Ui, WidgetInfo};
+use std::ops::RangeInclusive;
+
+/// What the exposure may be, EV.
+pub const EXPOSURES: RangeInclusive<f32> = -20.0..=20.0;
+/// What may be added after it.
+pub const OFFSETS: RangeInclusive<f32> = -10.0..=10.0;
 
 /// The tone maps' names, and what they do.
 const TONE_MAPS: [(ToneMap, ViewText); 4] = [
@@ -166,14 +172,15 @@ fn exposure(ui: &mut Ui, state: &mut State) {
     let hint = keys::hint(state, Text::HelpExposure, Action::Exposure);
     let exposure = state.say(Text::Exposure);
     labelled(ui, exposure, &hint, |ui| {
-        ui.add(DragValue::new(&mut state.exposure).custom_parser(finite).range(-20.0..=20.0).speed(0.05).fixed_decimals(1).suffix(" EV"))
+        ui.add(DragValue::new(&mut state.exposure).custom_parser(finite).range(EXPOSURES).speed(0.05).fixed_decimals(1).suffix(" EV"))
     });
 }
 
 /// Fits the exposure to what is on show.
 fn auto(ui: &mut Ui, state: &mut State, live: &Live) {
     if ui.button(state.say(ViewText::Auto)).on_hover_text(state.say(ViewText::HelpAuto)).clicked() {
-        (state.exposure, state.view.offset) = (exposure_of(&Pair::find(state, live), state).clamp(-20.0, 20.0), 0.0);
+        (state.exposure, state.view.offset) =
+            (exposure_of(&Pair::find(state, live), state).clamp(*EXPOSURES.start(), *EXPOSURES.end()), 0.0);
     }
 }
 
@@ -181,7 +188,7 @@ fn offset(ui: &mut Ui, state: &mut State) {
     let hint = keys::hint(state, ViewText::HelpOffset, Action::Offset);
     let offset = state.say(ViewText::Offset);
     labelled(ui, offset, &hint, |ui| {
-        ui.add(DragValue::new(&mut state.view.offset).custom_parser(finite).range(-10.0..=10.0).speed(0.01).max_decimals(2))
+        ui.add(DragValue::new(&mut state.view.offset).custom_parser(finite).range(OFFSETS).speed(0.01).max_decimals(2))
     });
 }
 

@@ -13,7 +13,7 @@ mod words;
 pub use card::what;
 pub use path::own_name;
 pub use pick::{eye_vertex, light_vertex};
-pub use search::{Goal, Search, start as start_search, sync as sync_search};
+pub use search::{Goal, Search, forget as forget_search, start as start_search, sync as sync_search};
 pub use splits::Bars;
 pub use strategies::is_hidden;
 pub use what_if::weights;

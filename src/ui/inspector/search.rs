@@ -110,11 +110,15 @@ pub fn sync(state: &mut State, engine: &Engine) -> bool {
 
 /// Starts a search; what the last one said goes.
 pub fn start(state: &mut State, goal: Goal) {
-    let said = state.inspect.nothing_found.take();
-    if said.is_some() {
-        state.retract(said);
-    }
+    forget(state);
     state.inspect.search = Some(Search::new(state, goal));
+}
+
+/// Ends the search, and takes back that the last one found nothing.
+pub fn forget(state: &mut State) {
+    state.inspect.search = None;
+    let said = state.inspect.nothing_found.take();
+    state.retract(said);
 }
 
 /// The buttons that start a search; while one is under way, how far it is and the button that ends it.

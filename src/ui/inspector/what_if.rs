@@ -11,7 +11,7 @@ use crate::bdpt::record::SplitRecord;
 use crate::bdpt::{Heuristic, HeuristicKind};
 use crate::ui::state::State;
 use crate::ui::text::InspectText;
-use crate::ui::top_bar::HEURISTICS;
+use crate::ui::top_bar::{CUTOFFS, HEURISTICS};
 use crate::ui::widgets::keep_together;
 use eframe::egui::{ComboBox, RichText, Slider, Ui};
 use std::f64::consts::LN_10;
@@ -63,7 +63,7 @@ fn kind(ui: &mut Ui, state: &State, chosen: &mut Heuristic) {
 fn parameter(ui: &mut Ui, state: &State, chosen: &mut Heuristic) {
     let (value, range, symbol, name) = match chosen.kind {
         HeuristicKind::Power => (&mut chosen.beta, BETAS, "β", InspectText::WhatIfBeta),
-        HeuristicKind::Cutoff => (&mut chosen.cutoff, 0.0..=1.0, "A", InspectText::WhatIfCutoff),
+        HeuristicKind::Cutoff => (&mut chosen.cutoff, CUTOFFS, "A", InspectText::WhatIfCutoff),
         _ => return,
     };
     keep_together(ui, 170.0);

@@ -7,6 +7,7 @@ use super::{Layout, Link, Picture, Space, pieces};
 use crate::engine::Job;
 use crate::scene::edit::{self, EnvironmentEdit};
 use crate::scene::{Scene, SceneEdits};
+use crate::ui::inspector;
 use crate::ui::preferences::{Preferences, Shown};
 use crate::ui::space::{Arrival, SampleFilter};
 use crate::ui::state::{Placement, Selection, State};
@@ -19,7 +20,7 @@ pub fn arrive(link: &Link, state: &mut State, file: &Arc<Scene>, sky: bool) -> V
     picture(&link.picture, state);
     layout(&link.layout, state);
     (state.picking_focus, state.focus_on, state.turning) = (false, None, None);
-    (state.inspect.search, state.inspect.nothing_found) = (None, None);
+    inspector::forget_search(state);
     state.hidden = link.hidden;
     let edits = edits(link, file, sky, &mut ignored);
     let scene = edit::apply(file, &edits).map_or_else(|_| Arc::clone(file), Arc::new);

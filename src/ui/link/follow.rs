@@ -6,6 +6,7 @@ use super::of::{file_name, sky_name};
 use super::{Link, MOST_BYTES, Shared};
 use crate::scene::environment::EnvironmentSource;
 use crate::scene::{SceneError, builtin};
+use crate::ui::edit::recent;
 use crate::ui::live::Live;
 use crate::ui::state::{ChosenEnvironment, Opening, State};
 use crate::ui::text::{LinkText, fill};
@@ -18,6 +19,8 @@ pub struct LinkState {
     pub copy: bool,
     /// The page's address without its #; empty where there is none.
     pub base: String,
+    /// Nothing can be copied: browsers give no clipboard to a page that came over plain HTTP.
+    pub no_clipboard: bool,
     /// Said since then: a link was copied.
     pub(super) copied: Option<(String, Instant)>,
     /// The link that is on its way.
@@ -49,7 +52,7 @@ pub(super) enum Awaited {
     /// This is being loaded.
     Scene(Opening),
     /// A scene's file of this name; so long, that scene is on show.
-    File(String, Option<String>),
+    File(String, Option<Opening>),
     /// All the rest has arrived: the file of its sky.
     Sky(String),
 }
@@ -57,7 +60,12 @@ pub(super) enum Awaited {
 impl LinkState {
     /// As it was written, the link whose scene is not on show yet.
     pub fn pending(&self) -> Option<&str> {
-        self.coming.as_ref().filter(|coming| !matches!(coming.awaited, Awaited::Sky(_))).map(|coming| coming.text.as_str())
+        self.early().map(|coming| coming.text.as_str())
+    }
+
+    /// That link.
+    pub(super) fn early(&self) -> Option<&Coming> {
+        self.coming.as_ref().filter(|coming| !matches!(coming.awaited, Awaited::Sky(_)))
     }
 
     /// The link that has arrived but for its sky.
@@ -78,7 +86,7 @@ fn take_back(state: &mut State) {
 
 /// The scene to show where there is no other.
 fn first() -> Opening {
-    Opening::of(builtin::list().first().map_or("", |scene| scene.name))
+    Opening::of(builtin::first())
 }
 
 /// Opens what a link is about: now if its scene is on show, else when it has been loaded.
@@ -107,7 +115,7 @@ pub fn open(state: &mut State, live: &Live, text: &str) {
                 let needs = fill(state.say(LinkText::NeedsScene), &[name]);
                 tell(state, needs);
                 state.open = state.open.take().or_else(|| nothing.then(first));
-                let meanwhile = state.open.as_ref().or(live.wanted()).map(|opening| opening.scene.clone());
+                let meanwhile = state.open.as_ref().or(live.wanted()).cloned();
                 let awaited = Awaited::File(name.clone(), meanwhile);
                 state.link.coming = Some(Coming { text: text.trim().to_owned(), link, ignored, awaited });
                 return;
@@ -167,7 +175,7 @@ pub fn loaded(state: &mut State, live: &Live) {
                 return;
             }
         }
-        Awaited::File(_, meanwhile) if meanwhile.as_deref() == Some(opened.scene.as_str()) => return,
+        Awaited::File(_, Some(meanwhile)) if same_file(&meanwhile, opened) => return,
         Awaited::Sky(name) => return sky(state, live, &link, &name),
         // The person went on to something else.
         _ => {
@@ -195,10 +203,13 @@ pub fn loaded(state: &mut State, live: &Live) {
     }
 }
 
-/// The loader gives a file its whole name.
 fn same(wanted: &Opening, opened: &Opening) -> bool {
-    let same_parts = (&wanted.files, &wanted.inside, &wanted.environment) == (&opened.files, &opened.inside, &opened.environment);
-    same_parts && file_name(&wanted.scene) == file_name(&opened.scene)
+    same_file(wanted, opened) && (&wanted.inside, &wanted.environment) == (&opened.inside, &opened.environment)
+}
+
+/// A file has one name however it was given; of files in memory, what is in them counts, too.
+fn same_file(wanted: &Opening, opened: &Opening) -> bool {
+    Opening { scene: recent::whole(&wanted.scene), ..wanted.clone() }.same_file(opened)
 }
 
 fn wait(state: &mut State, awaited: Awaited) {
@@ -234,14 +245,20 @@ fn sky(state: &mut State, live: &Live, link: &Link, name: &str) {
 /// A scene could not be loaded. If a link wanted it inside its file, or in a light, that cannot be, it is shown as it is.
 pub fn refused(state: &mut State, opening: &Opening, error: &SceneError) -> Option<Opening> {
     let coming = state.link.coming.as_mut().filter(|coming| coming.awaited == Awaited::Scene(opening.clone()))?;
-    let plain = Opening { inside: None, environment: None, ..opening.clone() };
-    if plain == *opening {
-        state.link.coming = None;
-        return None;
+    let (piece, plain) = match opening {
+        Opening { inside: Some(_), .. } => ("inside", Opening { inside: None, ..opening.clone() }),
+        Opening { environment: Some(_), .. } => ("env", Opening { environment: None, ..opening.clone() }),
+        _ => {
+            state.link.coming = None;
+            return None;
+        }
+    };
+    // One at a time: what is named was left out, and nothing else.
+    coming.ignored.push(Ignored::new(piece, Why::Refused(error.to_string())));
+    match piece {
+        "inside" => coming.link.inside = None,
+        _ => coming.link.environment = None,
     }
-    let what = if opening.inside.is_some() { "inside" } else { "env" };
-    coming.ignored.push(Ignored::new(what, Why::Refused(error.to_string())));
-    coming.link = Link { inside: None, environment: None, ..coming.link.clone() };
     coming.awaited = Awaited::Scene(plain.clone());
     Some(plain)
 }

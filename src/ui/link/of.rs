@@ -11,17 +11,13 @@ use crate::ui::image_view::ViewState;
 use crate::ui::inspector::InspectState;
 use crate::ui::preferences::{Preferences, Shown};
 use crate::ui::space::{SampleFilter, SpaceState};
-use crate::ui::state::{ChosenEnvironment, Opening, Selection, State};
+use crate::ui::state::{ChosenEnvironment, FILM, Opening, Selection, State};
 use crate::ui::study::StudyState;
-
-/// The film's size at the first start, pixels.
-const FILM: [u32; 2] = [512, 512];
 
 impl Default for Link {
     /// What is on show at the first start.
     fn default() -> Self {
-        let first = builtin::list().first().map_or("", |scene| scene.name);
-        Self::of(&State::new(Preferences::default(), FILM), &Opening::of(first))
+        Self::of(&State::new(Preferences::default(), FILM), &Opening::of(builtin::first()))
     }
 }
 
@@ -46,63 +42,42 @@ impl Link {
             paused: _,
             hidden,
             selection,
-            placement,
-            exposure,
-            tonemap,
-            view,
-            compare,
-            walk,
-            maximised,
             narrow: _,
-            space_in_front,
             phone: _,
-            beside,
             menu: _,
             touch: _,
             fingers: _,
             help: _,
             space,
             edit,
-            study,
             checks,
             export: _,
             files: _,
             tour: _,
-            inspect,
             text_view: _,
             drawn: _,
             messages: _,
             link: _,
-            shares,
+            // In `layout`.
+            walk: _,
+            maximised: _,
+            space_in_front: _,
+            beside: _,
+            study: _,
+            inspect: _,
+            shares: _,
+            // In `picture`.
+            placement: _,
+            exposure: _,
+            tonemap: _,
+            view: _,
+            compare: _,
         } = state;
         let Opening { scene, files, inside, environment } = opened;
         let Selection { pixel, sample, strategy, vertex } = *selection;
         let EditState { edits, history: _, moving: _, grip: _, bookmark_name: _, renaming: _ } = edit;
-        let ViewState { offset, pointer: _, one_to_one: _ } = *view;
-        let StudyState { mode, why } = *study;
         let ChecksState { ask: _, thorough: _, unfolded: _ } = checks;
-        let InspectState { bars, what_if, search: _, nothing_found: _ } = inspect;
         let (environment, turn) = environment.as_ref().map_or((None, 0.0), surroundings);
-        let layout = Layout {
-            maximised: *maximised,
-            space_in_front: *space_in_front,
-            beside: *beside,
-            shares: *shares,
-            walk: *walk,
-            bars: *bars,
-            what_if: *what_if,
-            mode,
-            why,
-            ..layout(prefs)
-        };
-        let picture = Picture {
-            exposure: *exposure,
-            offset,
-            tonemap: *tonemap,
-            placement: *placement,
-            drawn: drawn(prefs.shown),
-            ..compared(compare)
-        };
         Self {
             version: LINK_VERSION,
             estimator: Some(RECORD_VERSION),
@@ -122,8 +97,8 @@ impl Link {
             sample,
             strategy,
             vertex: vertex as u32,
-            picture,
-            layout,
+            picture: picture(state),
+            layout: layout(state),
             space: watched(space),
         }
     }
@@ -157,14 +132,8 @@ fn surroundings(chosen: &ChosenEnvironment) -> (Option<Shared<[f32; 3]>>, f64) {
     (Some(source), *rotation)
 }
 
-/// What is drawn over the picture, as flags.
-fn drawn(shown: Shown) -> [bool; 7] {
-    let Shown { eye, light, connections, blocked, splats, names, legend } = shown;
-    [eye, light, connections, blocked, splats, names, legend]
-}
-
-/// What of the window's own choices is a part of what is on show.
-fn layout(prefs: &Preferences) -> Layout {
+/// How the window is laid out, and what of its person's choices is a part of what is on show.
+fn layout(state: &State) -> Layout {
     let Preferences {
         lang: _,
         dark: _,
@@ -184,43 +153,46 @@ fn layout(prefs: &Preferences) -> Layout {
         camera_open,
         recent: _,
         bookmarks: _,
-    } = prefs;
+    } = state.prefs;
+    let StudyState { mode, why } = state.study;
+    let InspectState { bars, what_if, search: _, nothing_found: _ } = state.inspect;
     Layout {
-        panels: [*inspector_open, *pyramid_open, *space_open, *camera_open],
-        tab: *tab,
-        sort: *sort,
-        gain: *gain,
-        cell: *cell,
-        // The caller's.
-        maximised: crate::ui::state::Maximised::None,
-        space_in_front: false,
-        beside: crate::ui::state::Maximised::Inspector,
-        shares: [None; 3],
-        walk: crate::ui::state::Walk::Full,
-        bars: crate::ui::inspector::Bars::default(),
-        what_if: None,
-        mode: crate::engine::Mode::default(),
-        why: false,
+        maximised: state.maximised,
+        panels: [inspector_open, pyramid_open, space_open, camera_open],
+        space_in_front: state.space_in_front,
+        beside: state.beside,
+        shares: state.shares,
+        tab,
+        sort,
+        walk: state.walk,
+        bars,
+        what_if,
+        mode,
+        why,
+        gain,
+        cell,
     }
 }
 
-/// Pictures that were kept stay where they are.
-fn compared(compare: &CompareState) -> Picture {
-    let CompareState { open, a, b, mode, metric, flipped, peeking: _, split, kept: _, count: _, keep: _, field: _, load: _ } = compare;
+/// How the picture is shown. Pictures that were kept stay where they are.
+fn picture(state: &State) -> Picture {
+    let ViewState { offset, pointer: _, one_to_one: _ } = state.view;
+    let Shown { eye, light, connections, blocked, splats, names, legend } = state.prefs.shown;
+    let CompareState { open, a, b, mode, metric, flipped, peeking: _, split, kept: _, count: _, keep: _, field: _, load: _ } =
+        state.compare;
     let travels = |source: &Source| !matches!(source, Source::Kept(_));
     Picture {
-        source: Some(*a).filter(travels).unwrap_or(Source::Image),
+        exposure: state.exposure,
+        offset,
+        tonemap: state.tonemap,
+        placement: state.placement,
+        source: Some(a).filter(travels).unwrap_or(Source::Image),
         other: b.filter(travels),
-        compare: open.then_some(*mode),
-        metric: *metric,
-        split: *split,
-        flipped: *flipped,
-        // The caller's.
-        exposure: 0.0,
-        offset: 0.0,
-        tonemap: crate::film::tonemap::ToneMap::default(),
-        placement: crate::ui::state::Placement::Fit,
-        drawn: [true; 7],
+        compare: open.then_some(mode),
+        metric,
+        split,
+        flipped,
+        drawn: [eye, light, connections, blocked, splats, names, legend],
     }
 }
 

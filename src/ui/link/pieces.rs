@@ -13,8 +13,10 @@ use crate::math::Vec3;
 use crate::scene::environment::MAX_RADIANCE;
 use crate::scene::{Lens, Pose};
 use crate::ui::compare::Source;
+use crate::ui::image_view::{EXPOSURES, OFFSETS, ZOOMS};
 use crate::ui::inspector::Bars;
-use crate::ui::space::{Orbit, Which};
+use crate::ui::pyramid_menus::CELLS;
+use crate::ui::space::{MOST_SAMPLES, Orbit, Which};
 use crate::ui::state::{Gain, Maximised, Placement, Sort, Tab, Walk};
 use crate::ui::text::Lang;
 use eframe::egui::vec2;
@@ -86,8 +88,8 @@ pub const TABLE: &[Piece] = &[
     piece!("strategy", OneStrategy, strategy),
     piece!("vertex", Between(0, MAX_EDGES as u32), vertex),
     // How it is shown.
-    piece!("ev", Between(-20.0, 20.0), picture.exposure),
-    piece!("offset", Between(-10.0, 10.0), picture.offset),
+    piece!("ev", Between::within(&EXPOSURES), picture.exposure),
+    piece!("offset", Between::within(&OFFSETS), picture.offset),
     piece!("tone", TONE, picture.tonemap),
     piece!("view", Placed, picture.placement),
     piece!("picture", OneSource, picture.source),
@@ -113,14 +115,14 @@ pub const TABLE: &[Piece] = &[
     piece!("cells", MODE, layout.mode),
     piece!("why", SWITCH, layout.why),
     piece!("gain", OneOf(&[(Gain::Same, "same"), (Gain::Each, "each")]), layout.gain),
-    piece!("cell", Between(64.0, 260.0), layout.cell),
+    piece!("cell", Between::within(&CELLS), layout.cell),
     // The 3-D view.
     piece!("orbit", Maybe(Orbiting), space.orbit),
     piece!("through", SWITCH, space.through),
     piece!("cull", SWITCH, space.cull),
     piece!("follow", SWITCH, space.follow),
     piece!("lobe", SWITCH, space.lobe),
-    piece!("samples", Between(0, 256), space.samples),
+    piece!("samples", Between(0, MOST_SAMPLES), space.samples),
     piece!("which", OneOf(&[(Which::All, "all"), (Which::Selected, "selected"), (Which::Role, "role")]), space.which),
     piece!("length", Maybe(Between(1, MAX_EDGES as u32)), space.length),
     piece!("sides", Flags(["light", "eye", "connections"]), space.sides),
@@ -149,12 +151,8 @@ const MAXIMISED: OneOf<Maximised> = OneOf(&[
     (Maximised::Pyramid, "pyramid"),
 ]);
 
-const BESIDE: OneOf<Maximised> = OneOf(&[
-    (Maximised::Image, "image"),
-    (Maximised::Space, "space"),
-    (Maximised::Inspector, "inspector"),
-    (Maximised::Pyramid, "pyramid"),
-]);
+/// Any of these but none.
+const BESIDE: OneOf<Maximised> = OneOf(MAXIMISED.0.split_at(1).1);
 
 const TAB: OneOf<Tab> = OneOf(&[
     (Tab::Strategies, "strategies"),
@@ -260,7 +258,7 @@ impl Codec for Placed {
             return Some((Placement::Fit, false));
         }
         let ([wanted, x, y], bounded) = Several::<_, 3>(REAL, ',').read(text)?;
-        let zoom = wanted.clamp(0.05, 200.0);
+        let zoom = wanted.clamp(*ZOOMS.start(), *ZOOMS.end());
         Some((Placement::Free { zoom, centre: vec2(x, y) }, bounded || zoom != wanted))
     }
 }

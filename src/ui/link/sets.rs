@@ -8,45 +8,48 @@
 
 use super::words::{Codec, OneStrategy, Read};
 use crate::bdpt::{MAX_EDGES, Strategy, StrategySet};
+use std::sync::LazyLock;
 
 /// A list of so many letters can still be read by a person.
 const READABLE: usize = 60;
+/// A list of more is longer than the bits of any set.
+const MOST_LISTED: usize = 72;
 const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
 
 /// A set of strategies.
 pub struct Strategies;
 
-fn bases() -> [(&'static str, StrategySet); 4] {
+static BASES: LazyLock<[(&str, StrategySet); 4]> = LazyLock::new(|| {
     [("all", StrategySet::ALL), ("none", StrategySet::NONE), ("pt", StrategySet::path_tracer()), ("lt", StrategySet::light_tracer())]
-}
+});
 
 fn every() -> impl Iterator<Item = Strategy> {
     Strategy::all(MAX_EDGES as u32, true)
 }
 
-/// A base, and what differs from it.
-fn listed(name: &str, base: &StrategySet, set: &StrategySet) -> String {
-    let others = every().filter(|x| set.contains(*x) != base.contains(*x));
-    let words = others.map(|x| if set.contains(x) { format!(",{x}") } else { format!(",-{x}") });
-    words.fold(name.to_owned(), |text, word| text + &word)
+/// The base with the fewest differences, and what these are; nothing if they are too many.
+fn listed(set: &StrategySet) -> Option<String> {
+    let all = BASES.iter().map(|(name, base)| (name, base.differing(set)));
+    let (name, others) = all.min_by_key(|(_, others)| others.count()).filter(|(_, others)| others.count() <= MOST_LISTED)?;
+    let mut text = (*name).to_owned();
+    if others != StrategySet::NONE {
+        for strategy in every().filter(|x| others.contains(*x)) {
+            text += &if set.contains(strategy) { format!(",{strategy}") } else { format!(",-{strategy}") };
+        }
+    }
+    Some(text)
 }
 
 fn bits(set: &StrategySet) -> String {
     let mut letters: Vec<usize> = Vec::new();
-    for (index, strategy) in every().enumerate() {
-        if index % 6 == 0 {
-            letters.push(0);
-        }
-        if let Some(last) = letters.last_mut().filter(|_| set.contains(strategy)) {
+    for (index, _) in every().enumerate().filter(|(_, strategy)| set.contains(*strategy)) {
+        letters.resize(index / 6 + 1, 0);
+        if let Some(last) = letters.last_mut() {
             *last |= 1 << (index % 6);
         }
     }
-    let used = letters.iter().rposition(|letter| *letter != 0).map_or(0, |last| last + 1);
-    let letters = letters.iter().take(used).filter_map(|letter| LETTERS.get(*letter)).map(|letter| char::from(*letter));
-    letters.fold("bits,".to_owned(), |mut text, letter| {
-        text.push(letter);
-        text
-    })
+    let letters = letters.iter().filter_map(|letter| LETTERS.get(*letter)).map(|letter| char::from(*letter));
+    "bits,".chars().chain(letters).collect()
 }
 
 fn of_bits(text: &str) -> Option<StrategySet> {
@@ -60,12 +63,11 @@ impl Codec for Strategies {
     type Value = StrategySet;
 
     fn write(&self, set: &StrategySet) -> String {
-        let texts = bases().into_iter().map(|(name, base)| listed(name, &base, set));
-        // A set of all there are is not the set of all there could be: only what comes back as it was is right.
-        let exact = texts.filter(|text| self.read(text).is_some_and(|(back, _)| back == *set));
-        let shortest = exact.min_by_key(String::len).unwrap_or_default();
-        let bits = if shortest.len() > READABLE { bits(set) } else { return shortest };
-        if bits.len() < shortest.len() && self.read(&bits).is_some_and(|(back, _)| back == *set) { bits } else { shortest }
+        match listed(set) {
+            Some(list) if list.len() <= READABLE => list,
+            Some(list) => std::cmp::min_by_key(bits(set), list, String::len),
+            None => bits(set),
+        }
     }
 
     fn read(&self, text: &str) -> Read<StrategySet> {
@@ -75,7 +77,7 @@ impl Codec for Strategies {
             let set = words.next().and_then(of_bits).filter(|_| words.next().is_none())?;
             return Some((set, false));
         }
-        let (_, mut set) = bases().into_iter().find(|(name, _)| *name == first)?;
+        let (_, mut set) = *BASES.iter().find(|(name, _)| *name == first)?;
         for word in words {
             let (name, member) = word.strip_prefix('-').map_or((word, true), |name| (name, false));
             let (strategy, _) = OneStrategy.read(name)?;
@@ -101,11 +103,21 @@ mod tests {
         pt.set(Strategy::new(2, 1), true);
         assert_eq!(Strategies.write(&pt), "pt,s2t1");
         let odd = StrategySet::where_(|x| (x.s * 7 + x.t * 3) % 5 < 2);
-        for set in [StrategySet::NONE, StrategySet::light_tracer(), only, odd, pt] {
+        let even = StrategySet::where_(|x| x.s % 2 == 0 || x.edges() > 40);
+        for set in [StrategySet::NONE, StrategySet::light_tracer(), only, odd, even, pt] {
             let text = Strategies.write(&set);
             assert!(text.len() < 380, "{text}");
             assert_eq!(Strategies.read(&text), Some((set, false)), "{text}");
         }
+        // A list that nobody would read is bits, where these are shorter.
+        let some = StrategySet::where_(|x| x.edges() < 10 && (x.s + 2 * x.t) % 4 == 0);
+        let text = Strategies.write(&some);
+        assert!(text.starts_with("bits,") && text.len() < 20, "{text}");
+        assert_eq!(Strategies.read(&text), Some((some, false)));
+        let far = StrategySet::where_(|x| x.edges() > 62 && x.s % 8 == 0);
+        let text = Strategies.write(&far);
+        assert!(text.starts_with("none,s0t64,") && text.len() < 180, "{text}");
+        assert_eq!(Strategies.read(&text), Some((far, false)));
     }
 
     #[test]

@@ -1,7 +1,9 @@
 //! How the values of a link are written and read: short, exact (what is read back is the very same number), and never trusted.
 
 use crate::bdpt::{Heuristic, HeuristicKind, MAX_EDGES, Strategy};
+use crate::ui::top_bar::{BETAS, CUTOFFS};
 use std::fmt::{Display, LowerExp};
+use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 /// What was read: the value, and whether it is another one than was written, because that was out of bounds.
@@ -19,6 +21,13 @@ pub trait Codec {
 
 /// A number from the first to the second; what lies outside becomes the nearest that does not.
 pub struct Between<T>(pub T, pub T);
+
+impl<T: Copy> Between<T> {
+    /// What a control of the window can be set to.
+    pub const fn within(range: &RangeInclusive<T>) -> Self {
+        Self(*range.start(), *range.end())
+    }
+}
 
 impl<T: Copy + PartialOrd + FromStr + Display + LowerExp> Codec for Between<T> {
     type Value = T;
@@ -162,9 +171,9 @@ pub const HEURISTICS: OneOf<HeuristicKind> = OneOf(&[
     (HeuristicKind::Uniform, "uniform"),
 ]);
 /// What β may be.
-pub const BETA: Between<f32> = Between(0.0, 16.0);
+pub const BETA: Between<f32> = Between::within(&BETAS);
 /// What the cutoff's threshold may be.
-pub const CUTOFF: Between<f32> = Between(0.0, 1.0);
+pub const CUTOFF: Between<f32> = Between::within(&CUTOFFS);
 
 /// A heuristic with its parameters, "power,2,0.1".
 pub struct WholeHeuristic;

@@ -15,6 +15,7 @@ mod toolbar;
 pub use camera::{Arrival, Orbit, Pose};
 pub use navigate::step;
 pub use samples::{SampleFilter, Which};
+pub use toolbar::MOST as MOST_SAMPLES;
 
 use super::format::indexed;
 use super::live::Live;

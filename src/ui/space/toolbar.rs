@@ -10,7 +10,7 @@ use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{Button, DragValue, IntoAtoms, Label, PopupCloseBehavior, RichText, ScrollArea, Sense, Slider, SliderClamping, Ui};
 
 /// Most samples that are drawn at once.
-const MOST: u32 = 256;
+pub const MOST: u32 = 256;
 
 /// Shows them.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {

@@ -5,6 +5,7 @@ texts! { LinkText;
     HelpCopy: "Whoever opens the link sees the same scene, with its changes, the same camera, sample and path, and the same panels.", "打开链接的人会看到同样的场景及其更改、同样的相机、采样和路径，以及同样的面板。";
     HelpCopyHash: "There is no address here, so only its part from # on is copied: put it behind the address of the explorer's page, or start bdpt-explorer --link '#…'.", "此处没有网址，因此只复制 # 之后的部分：把它接在网页版地址之后，或运行 bdpt-explorer --link '#…'。";
     Copied: "Link copied ({} letters).", "链接已复制（{} 个字符）。";
+    NoClipboard: "This page came over plain HTTP, where browsers let nothing be copied: take the link from the address bar.", "此页面经由普通 HTTP 加载，浏览器不允许复制：请从地址栏复制链接。";
     WithoutEdits: "The changes of the scene are not in it: they would make it too long.", "其中不含对场景的更改：否则链接过长。";
     WithoutFile: "{} does not travel with it, only its name: whoever opens the link needs the file.", "链接只包含文件名 {}，不含文件本身：打开链接的人需要有该文件。";
     WithoutKept: "Kept pictures do not travel with it.", "保留的画面不会随链接传递。";

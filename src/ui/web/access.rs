@@ -15,6 +15,7 @@ use crate::ui::preferences::Preferences;
 use crate::ui::state::State;
 use crate::ui::summary::{Summary, html};
 use crate::ui::text::{Lang, SummaryText};
+use crate::ui::wake::Wake;
 use crate::ui::{App, Pass};
 use std::cell::Cell;
 use std::rc::Rc;
@@ -51,7 +52,7 @@ pub fn preferences() -> Preferences {
 pub struct Access {
     parts: Option<Parts>,
     looked: Option<Instant>,
-    shown: Option<Summary>,
+    shown: Summary,
     lang: Option<Lang>,
     text_view: bool,
 }
@@ -60,7 +61,7 @@ impl Access {
     /// Brings the page in step with the window; called before every pass.
     pub fn update(&mut self, pass: &mut Pass<'_>) {
         if self.parts.is_none() {
-            self.parts = Parts::new(pass.ctx);
+            self.parts = Parts::new(pass.app.wake());
             pass.app.state_mut().touch |= prefers("(pointer: coarse)");
         }
         let Some(parts) = &self.parts else { return };
@@ -75,7 +76,7 @@ impl Access {
         let left = self.looked.map_or(Duration::ZERO, |looked| PACE.saturating_sub(looked.elapsed()));
         if !left.is_zero() {
             // What changed since then is not forgotten when nothing else moves.
-            pass.ctx.request_repaint_after(left);
+            pass.app.wake().within(left);
             return;
         }
         self.looked = Some(Instant::now());
@@ -83,24 +84,28 @@ impl Access {
     }
 
     fn write(&mut self, app: &App) {
-        let (Some(parts), Some(summary)) = (&self.parts, app.summary()) else { return };
-        if self.shown.as_ref() == Some(&summary) {
+        let Some(parts) = &self.parts else { return };
+        let (old, new) = (&self.shown, app.summary().unwrap_or_default());
+        if *old == new {
             return;
         }
-        let old = self.shown.as_ref();
-        if old.is_none_or(|old| old.data != summary.data) {
-            summary.data.iter().for_each(|(name, value)| drop(parts.region.set_attribute(&format!("data-{name}"), value)));
+        if old.data != new.data {
+            let gone = |name: &str| new.data.iter().all(|(other, _)| *other != name);
+            for (name, _) in old.data.iter().filter(|(name, _)| gone(name)) {
+                drop(parts.region.remove_attribute(&format!("data-{name}")));
+            }
+            new.data.iter().for_each(|(name, value)| drop(parts.region.set_attribute(&format!("data-{name}"), value)));
         }
-        if old.is_none_or(|old| old.now != summary.now) {
-            parts.now.set_text_content(Some(&summary.now));
+        if old.now != new.now {
+            parts.now.set_text_content(Some(&new.now));
         }
-        if old.is_none_or(|old| old.path != summary.path) {
-            parts.path.set_inner_html(&html(&summary.path));
+        if old.path != new.path {
+            parts.path.set_inner_html(&html(&new.path));
         }
-        if old.is_none_or(|old| old.rendering != summary.rendering) {
-            parts.rendering.set_inner_html(&html(&summary.rendering));
+        if old.rendering != new.rendering {
+            parts.rendering.set_inner_html(&html(&new.rendering));
         }
-        self.shown = Some(summary);
+        self.shown = new;
     }
 }
 
@@ -122,7 +127,7 @@ struct Parts {
 
 impl Parts {
     /// Fills the page's regions; `None` if the page is not ours.
-    fn new(ctx: &eframe::egui::Context) -> Option<Self> {
+    fn new(wake: &Wake) -> Option<Self> {
         let document = page::window()?.document()?;
         let (region, skip) = (page::element("summary")?, page::element("skip")?);
         let to_text = add(&document, &skip, "button", "to-text")?;
@@ -135,14 +140,14 @@ impl Parts {
         }
         let path = add(&document, &region, "div", "summary-path")?;
         let rendering = add(&document, &region, "div", "summary-rendering")?;
-        let (toggled, ctx) = (Rc::new(Cell::new(false)), ctx.clone());
+        let (toggled, wake) = (Rc::new(Cell::new(false)), wake.clone());
         let pressed = Rc::clone(&toggled);
         let clicks = [
             click(&to_text, || focus("summary"))?,
             click(&to_window, || focus("canvas"))?,
             click(&switch, move || {
                 pressed.set(true);
-                ctx.request_repaint();
+                wake.now();
             })?,
         ];
         let (keys, enters) = (leave(&document)?, enter(&document)?);

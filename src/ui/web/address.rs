@@ -5,12 +5,9 @@
 use super::page;
 use crate::ui::App;
 use crate::ui::link::Link;
-use eframe::egui;
-use std::cell::RefCell;
+use std::cell::Cell;
 use std::rc::Rc;
 use std::time::Duration;
-use wasm_bindgen::JsCast;
-use wasm_bindgen::prelude::Closure;
 use web_time::Instant;
 
 /// Browsers refuse to have the address written again and again.
@@ -21,41 +18,21 @@ pub struct Address {
     /// The film is to have half the width and height that the address says.
     half: bool,
     looked: Option<Instant>,
-    news: Rc<RefCell<News>>,
-    _listener: Option<Closure<dyn FnMut()>>,
-}
-
-struct News {
-    /// The address is to be read.
-    changed: bool,
-    /// The window that reads it.
-    window: Option<egui::Context>,
+    /// The address is to be read; nobody listens to it before the first pass.
+    changed: Option<Rc<Cell<bool>>>,
 }
 
 impl Address {
     /// `half`: the memory was used up, so the film is to be smaller this time.
     pub fn new(half: bool) -> Self {
-        let news = Rc::new(RefCell::new(News { changed: true, window: None }));
-        let told = Rc::clone(&news);
-        let listener = Closure::<dyn FnMut()>::new(move || {
-            let mut news = told.borrow_mut();
-            news.changed = true;
-            news.window.as_ref().map(egui::Context::request_repaint);
-        });
-        let listening = page::window()
-            .is_some_and(|window| window.add_event_listener_with_callback("hashchange", listener.as_ref().unchecked_ref()).is_ok());
-        Self { half, looked: None, news, _listener: listening.then_some(listener) }
+        Self { half, looked: None, changed: None }
     }
 
     /// Reads or writes the address.
-    pub fn pass(&mut self, app: &mut App, ctx: &egui::Context) {
-        let changed = {
-            let mut news = self.news.borrow_mut();
-            news.window = Some(ctx.clone());
-            std::mem::take(&mut news.changed)
-        };
-        if changed {
-            app.set_link_base(page::address());
+    pub fn pass(&mut self, app: &mut App) {
+        let changed = self.changed.get_or_insert_with(|| listen(app));
+        if changed.take() {
+            app.set_link_base(page::address(), page::has_clipboard());
             self.read(app);
         }
         let rest = self.looked.map_or(Duration::ZERO, |looked| REST.saturating_sub(looked.elapsed()));
@@ -67,7 +44,7 @@ impl Address {
             }
         } else {
             // What is changed in this pass is written later, though there may be nothing to draw then.
-            ctx.request_repaint_after(rest);
+            app.wake().within(rest);
         }
     }
 
@@ -78,11 +55,19 @@ impl Address {
             return;
         }
         match Link::parse(&hash) {
-            Ok((mut link, _)) if half => {
-                link.size = link.size.map(|side| (side / 2).max(1));
-                app.open_link(&link.to_text());
-            }
+            Ok((link, _)) if half => app.open_link(&link.halved().to_text()),
             _ => app.open_link(&hash),
         }
     }
+}
+
+/// Hears when a person changes the address; as it is now, it was not read yet.
+fn listen(app: &App) -> Rc<Cell<bool>> {
+    let changed = Rc::new(Cell::new(true));
+    let (told, wake) = (Rc::clone(&changed), app.wake().clone());
+    page::on_hash(move || {
+        told.set(true);
+        wake.now();
+    });
+    changed
 }

@@ -2,6 +2,7 @@
 
 use crate::ui::text::Lang;
 use js_sys::{Array, Function, Reflect};
+use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
 use web_sys::{Document, Element, HtmlCanvasElement, Window};
 
@@ -130,9 +131,20 @@ pub fn take_reports() -> Vec<String> {
     texts
 }
 
-/// `wake` is called when there is something to report.
-pub fn on_report(wake: &Function) {
-    script().map(|script| Reflect::set(&script, &"wake".into(), wake));
+/// `wake` is called when there is something to report, as long as the page is there: a listener that is gone would fail it.
+pub fn on_report(wake: impl FnMut() + 'static) {
+    script().map(|script| Reflect::set(&script, &"wake".into(), &Closure::<dyn FnMut()>::new(wake).into_js_value()));
+}
+
+/// `heard` is called when a person changes the address behind its `#`, as long as the page is there.
+pub fn on_hash(heard: impl FnMut() + 'static) {
+    let listener = Closure::<dyn FnMut()>::new(heard).into_js_value();
+    window().map(|window| window.add_event_listener_with_callback("hashchange", listener.unchecked_ref()));
+}
+
+/// Can anything be copied? Browsers give no clipboard to a page that came over plain HTTP.
+pub fn has_clipboard() -> bool {
+    window().is_some_and(|window| window.is_secure_context())
 }
 
 /// What the page's script and the program have in common (`bdpt` in `web/loader.js`).
