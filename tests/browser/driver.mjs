@@ -43,19 +43,20 @@ const servers = [];
 async function serve({ prefix }) {
   const server = spawn(process.execPath, [SERVER, site, "--prefix", prefix], { stdio: ["ignore", "pipe", "inherit"] });
   servers.push(server);
-  const [line] = await once(createInterface({ input: server.stdout }), "line");
-  return line.trim();
+  const line = await Promise.race([once(createInterface({ input: server.stdout }), "line"), once(server, "exit").then(() => [])]);
+  if (line[0] === undefined) throw new Error("the page's server does not start");
+  return line[0].trim();
 }
 
 let context, page, problems = [], requests = [];
 
 // A new page in a browser that knows nothing yet; what goes wrong in it is noted.
-async function open({ url, width, height, phone, locale, init, scheme, motion, scale }) {
+async function open({ url, width, height, phone, locale, init, scale }) {
   await context?.close();
   [problems, requests] = [[], []];
   const touch = phone ? { hasTouch: true, isMobile: true } : {};
   context = await browser.newContext({ viewport: { width, height }, deviceScaleFactor: scale ?? 1, locale: locale ?? "en-US",
-    colorScheme: scheme ?? "dark", reducedMotion: motion ?? "no-preference", acceptDownloads: true, ...touch });
+    colorScheme: "dark", reducedMotion: "no-preference", acceptDownloads: true, ...touch });
   // Where it plays a telephone, Chromium gives this as if a point had one pixel; the program then does as in browsers that lack it.
   if (phone) await context.addInitScript("delete ResizeObserverEntry.prototype.devicePixelContentBoxSize");
   for (const script of init ?? []) await context.addInitScript(script);
@@ -97,7 +98,7 @@ async function choose(how) {
   await chooser.setFiles(how.files);
 }
 
-// Fingers on the screen, as the browser itself sees them: each step is where they are, the last one that they are gone.
+// Fingers on the screen, as the browser itself sees them: each step is where they are; after the last one they are gone.
 async function fingers({ steps }) {
   const session = await context.newCDPSession(page);
   const send = (type, points) => session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
@@ -114,8 +115,6 @@ async function act(command) {
   switch (command.do) {
     case "serve": return serve(command);
     case "open": return open(command);
-    case "reload": return void await page.reload();
-    case "go": return void await page.goto(command.url);
     case "wait": return (await page.waitForFunction(command.script, undefined, { timeout: command.timeout ?? 60000, polling: 50 })).jsonValue();
     case "eval": return page.evaluate(command.script);
     case "move": return page.mouse.move(x, y);
@@ -126,14 +125,7 @@ async function act(command) {
       return page.mouse.click(x, y, { delay: 60, ...command.options });
     case "tap": return page.touchscreen.tap(x, y);
     case "fingers": return fingers(command);
-    case "drag":
-      await page.mouse.move(x, y);
-      await page.mouse.down();
-      await page.mouse.move(command.to[0], command.to[1], { steps: 6 });
-      return page.mouse.up();
     case "press": return page.keyboard.press(command.key, { delay: 60 });
-    case "type": return page.keyboard.type(command.text, { delay: 20 });
-    case "resize": return page.setViewportSize({ width: command.width, height: command.height });
     case "shot": return void await page.screenshot({ path: command.path, clip: command.clip ?? undefined });
     case "drop": return drop(command);
     case "download": return download(command);

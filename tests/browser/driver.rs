@@ -28,6 +28,11 @@ impl Mode {
             Self::Neither => "neither",
         }
     }
+
+    /// Who renders then, if the GPU is to: as the summary says it.
+    pub const fn renderer(self) -> &'static str {
+        if matches!(self, Self::WebGpu) { "webgpu" } else { "cpu" }
+    }
 }
 
 /// The fonts the browser finds on its system.

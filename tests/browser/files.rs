@@ -1,9 +1,11 @@
 //! Files dropped on the page: a good one is rendered, a broken one is refused on the page, and nothing leaves the machine.
 
 use super::driver::Mode;
-use super::page::{Page, Visit};
+use super::page::{DESKTOP, Page, Visit};
 use super::select::{inspect, same_path};
-use std::path::Path;
+use super::twin::Twin;
+use bdpt_explorer::ui::text::{FilesText, Lang};
+use eframe::egui::accesskit::Role;
 
 const LINK: &str = "#v=1&scene=cornell&size=128x128&px=64,90";
 const MODEL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/sphere-lights.glb");
@@ -30,8 +32,15 @@ fn a_dropped_scene_is_rendered_a_broken_one_refused_and_nothing_leaves_the_machi
     }
     let path = |name: &str| at(name).display().to_string();
     let test = "a_dropped_scene_is_rendered_a_broken_one_refused_and_nothing_leaves_the_machine";
-    let Some(mut page) = Page::open(test, Visit::new(mode, LINK)) else { return };
+    let Some(mut page) = Page::open(test, Visit::rendered_by_gpu(mode, LINK)) else { return };
+    let mut twin = Twin::new(DESKTOP, LINK);
+    let ([left, top], [right, bottom]) = (twin.pixel([2, 2]), twin.pixel([125, 125]));
+    let clip = Some([left, top, right - left, bottom - top]);
+    let menu = twin.place_of(Role::ComboBox, "Scene");
+    twin.click(menu);
+    let button = twin.place(FilesText::Choose.in_language(Lang::En));
     page.interactive();
+    page.until_renderer(mode.renderer());
     page.until_pixel([64, 90]);
     page.until_spp(1.0);
     let pixel = |page: &mut Page| -> [u32; 2] {
@@ -48,12 +57,24 @@ fn a_dropped_scene_is_rendered_a_broken_one_refused_and_nothing_leaves_the_machi
     };
     shows(&mut page, "cornell", "cornell");
     let loaded = page.ask(&serde_json::json!({ "do": "requests" })).as_array().map_or(0, Vec::len);
+    // Chosen by the button: another scene, and another image of it.
+    let room = page.look(clip);
+    page.click(menu);
+    page.sleep(600);
+    page.choose_files(&[&at("apart.gltf"), &at("the numbers.bin")], button);
+    shows(&mut page, &path("apart.gltf"), "apart");
+    page.press("Escape");
+    page.until_renderer(mode.renderer());
+    let chosen = page.look_until(clip, |image| super::different(&room, image) > 0.3 && super::brightness(image) > 10.0);
+    let (changed, light) = (super::different(&room, &chosen), super::brightness(&chosen));
+    assert!(changed > 0.3 && light > 10.0, "{mode:?}: {changed} of the image has changed, its brightness is {light}");
+    page.shot("chosen");
     // A broken one: what was there stays.
     page.drop_files(&[&at("broken.glb")]);
     page.until("document.querySelector('#alerts').textContent.includes('broken.glb')");
     let told = page.alerts();
     assert!(told.lines().count() == 1 && !told.contains("panic"), "{told}");
-    shows(&mut page, "cornell", "cornell");
+    shows(&mut page, &path("apart.gltf"), "apart");
     page.shot("refused");
     // A whole one.
     page.drop_files(&[&at("my model.glb")]);
@@ -75,5 +96,4 @@ fn a_dropped_scene_is_rendered_a_broken_one_refused_and_nothing_leaves_the_machi
         let own = url.starts_with(&address) || url.starts_with("data:") || url.starts_with("blob:");
         assert!(own && request["method"] == "GET" && request["bytes"] == 0, "{request}");
     }
-    assert!(Path::new(MODEL).exists());
 }

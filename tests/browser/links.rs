@@ -50,8 +50,12 @@ fn a_share_link_round_trips(mode: Mode) {
     page.eval("history.back(); true");
     page.until_pixel([40, 77]);
     // And the desktop's window shows the same with it.
-    let mut twin = Twin::new(DESKTOP, "#v=1&scene=cornell&size=128x128&px=3,4");
-    assert_eq!(twin.app().state().selection.pixel, [3, 4]);
+    let mut twin = Twin::new(DESKTOP, &link);
+    let app = twin.app();
+    let selection = app.state().selection;
+    assert_eq!((selection.pixel, selection.sample), ([40, 77], 2));
+    let record = serde_json::to_value(app.live().record(app.state()).map(|record| (**record).clone())).expect("a record");
+    same_path(&received, &record).unwrap_or_else(|error| panic!("the desktop's window: {error}"));
 }
 
 in_both!(a_broken_link_opens_the_first_scene_and_says_what_it_ignored);

@@ -5,6 +5,7 @@ use super::site::site;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::sync::MutexGuard;
+use std::time::{Duration, Instant};
 
 /// How a page is opened.
 #[derive(Clone, Debug)]
@@ -207,6 +208,11 @@ impl Page {
         self.ask(&json!({ "do": "sleep", "ms": ms }));
     }
 
+    /// A click that makes the page ask for files, which it is given.
+    pub fn choose_files(&mut self, files: &[&Path], [x, y]: [f32; 2]) {
+        self.ask(&json!({ "do": "choose", "files": files, "then": { "do": "click", "x": x, "y": y } }));
+    }
+
     /// Drops files on the canvas.
     pub fn drop_files(&mut self, files: &[&Path]) {
         self.ask(&json!({ "do": "drop", "files": files, "selector": "#canvas" }));
@@ -240,6 +246,18 @@ impl Page {
             let kind = if self.visit.phone { "phone" } else { "desktop" };
             let path = Path::new(&folder).join(format!("{name}-{}-{kind}.png", self.visit.mode.name()));
             drop(self.browser().ask(&json!({ "do": "shot", "path": path })));
+        }
+    }
+
+    /// The page as it looks as soon as something is true of it, or after 45 s.
+    pub fn look_until(&mut self, clip: Option<[f32; 4]>, so: impl Fn(&image::RgbaImage) -> bool) -> image::RgbaImage {
+        let end = Instant::now() + Duration::from_secs(45);
+        loop {
+            self.sleep(700);
+            let picture = self.look(clip);
+            if so(&picture) || Instant::now() > end {
+                return picture;
+            }
         }
     }
 

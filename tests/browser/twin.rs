@@ -1,6 +1,7 @@
 //! The same window as the page's, without a browser: it tells where things are, so that a test can click what has a name.
 
 use bdpt_explorer::ui::{App, SceneSource, Start};
+use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Modifiers, PointerButton, Pos2, vec2};
 use egui_kittest::kittest::Queryable;
 use egui_kittest::wgpu::WgpuTestRenderer;
@@ -78,6 +79,11 @@ impl Twin {
     /// Where something is that has a name.
     pub fn place(&self, label: &str) -> [f32; 2] {
         self.0.get_by_label(label).rect().center().into()
+    }
+
+    /// The same, among things of a kind.
+    pub fn place_of(&self, kind: Role, label: &str) -> [f32; 2] {
+        self.0.get_by_role_and_label(kind, label).rect().center().into()
     }
 
     /// Clicks there, as the page's person does.
