@@ -16,6 +16,11 @@ use eframe::egui::{DragValue, Label, RichText, TextStyle, Ui};
 const NARROW: f32 = 440.0;
 /// A narrow view lower than this has no room for the numbers.
 const LOW: f32 = 300.0;
+/// Room for a number's name, and for three channels, letters: the rows stay where they are when the numbers change.
+const NAME: usize = 16;
+const CHANNELS: usize = 28;
+/// Room for an interval, letters.
+const INTERVAL: usize = 11;
 
 /// Shows it.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live, replayed: &Replayed) {
@@ -35,11 +40,11 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, replayed: &Replayed) {
     if small && ui.available_height() < LOW {
         return brief(ui, state, live, replayed);
     }
-    if let Some((samples, mean)) = mean(state, live) {
-        let name = fill(state.say(ViewText::MeanOf), &[&samples]);
-        let (interval, about) = live.frame().map(|frame| study::interval::words(state, frame)).unwrap_or_default();
-        number(ui, &name, &format!("{mean}  {interval}"), &format!("{}\n{about}", state.say(ViewText::HelpMean)));
-    }
+    let (samples, mean) = mean(state, live);
+    let name = fill(state.say(ViewText::MeanOf), &[&samples]);
+    let (interval, about) = live.frame().map(|frame| study::interval::words(state, frame)).unwrap_or_default();
+    let help = format!("{}\n{about}", state.say(ViewText::HelpMean));
+    number(ui, &name, (&format!("{mean}  {interval}"), CHANNELS + INTERVAL), &help);
     if let Some(record) = live.record(state) {
         let name = fill(state.say(ViewText::SampleAlone), &[&record.sample.to_string()]);
         // As the mean counts it: without what is hidden.
@@ -48,7 +53,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, replayed: &Replayed) {
         if *replayed == Replayed::NotOnGpu {
             help = format!("{help}\n{}", state.say(ViewText::NotOnGpu));
         }
-        number(ui, &name, &value, &help);
+        number(ui, &name, (&value, CHANNELS), &help);
         badge(ui, state, replayed);
     }
 }
@@ -88,34 +93,39 @@ fn brief(ui: &mut Ui, state: &State, live: &Live, replayed: &Replayed) {
     if judgement(state, replayed).is_some_and(|(_, warning, _)| warning) {
         badge(ui, state, replayed);
     }
-    if let Some((samples, mean)) = mean(state, live) {
-        if state.phone {
-            ui.end_row();
-            ui.set_row_height(ui.text_style_height(&TextStyle::Small));
-        } else if ui.available_size_before_wrap().x < 90.0 {
-            ui.end_row();
-        }
-        let name = fill(state.say(ViewText::MeanOf), &[&samples]);
-        let help = format!("{name} {mean}\n{}", state.say(ViewText::HelpMean));
-        let words = RichText::new(format!("{} {mean}", state.say(ViewText::Mean))).small();
-        ui.add(Label::new(words).truncate()).on_hover_text(help);
+    let (samples, mean) = mean(state, live);
+    if state.phone {
+        ui.end_row();
+        ui.set_row_height(ui.text_style_height(&TextStyle::Small));
+    } else if ui.available_size_before_wrap().x < 90.0 {
+        ui.end_row();
     }
+    let name = fill(state.say(ViewText::MeanOf), &[&samples]);
+    let help = format!("{name} {mean}\n{}", state.say(ViewText::HelpMean));
+    let words = RichText::new(format!("{} {mean}", state.say(ViewText::Mean))).small();
+    ui.add(Label::new(words).truncate()).on_hover_text(help);
 }
 
-/// A name and its value, on one line together.
-fn number(ui: &mut Ui, name: &str, value: &str, help: &str) {
-    keep_together(ui, 6.2 * (name.chars().count() + value.chars().count()) as f32 + 30.0);
-    ui.label(RichText::new(name).small().weak()).on_hover_text(help);
-    ui.label(RichText::new(value).monospace().small()).on_hover_text(help);
+/// A name and its value, on one line together, with room for so many letters.
+fn number(ui: &mut Ui, name: &str, (value, room): (&str, usize), help: &str) {
+    let letters = name.chars().count().max(NAME) + value.chars().count().max(room);
+    let width = (6.2 * letters as f32 + 30.0).min(ui.max_rect().width());
+    keep_together(ui, width);
+    ui.horizontal(|ui| {
+        ui.set_min_width(width);
+        ui.label(RichText::new(name).small().weak()).on_hover_text(help);
+        ui.label(RichText::new(value).monospace().small()).on_hover_text(help);
+    });
 }
 
-/// How many samples the selected pixel's mean is over, and the mean.
-fn mean(state: &State, live: &Live) -> Option<(String, String)> {
-    let frame = live.frame().filter(|frame| frame.size == state.size)?;
-    let value = pixel_of(frame.size, &frame.image, state.selection.pixel)?;
+/// How many samples the selected pixel's mean is over, and the mean, "–" while there is none.
+fn mean(state: &State, live: &Live) -> (String, String) {
+    let frame = live.frame().filter(|frame| frame.size == state.size);
     // While the first pass goes on, rows stand in for others.
-    let value = if live.first_pass().is_some() { state.say(ViewText::NoValue).to_owned() } else { written(value) };
-    Some((super::super::compare::samples(frame.stats.spp), value))
+    let found = frame.filter(|_| live.first_pass().is_none());
+    let value = found.and_then(|frame| pixel_of(frame.size, &frame.image, state.selection.pixel));
+    let samples = frame.map_or(0.0, |frame| frame.stats.spp);
+    (super::super::compare::samples(samples), value.map_or_else(|| state.say(ViewText::NoValue).to_owned(), written))
 }
 
 fn written(value: Vec3) -> String {
