@@ -2,7 +2,8 @@
 
 use super::state::State;
 use super::text::Text;
-use eframe::egui::{Align, Label, Layout, RichText, ScrollArea, Ui};
+use eframe::egui::text::LayoutJob;
+use eframe::egui::{Align, Label, Layout, RichText, ScrollArea, TextStyle, Ui};
 
 /// Shows the messages, each with a button that dismisses it.
 pub fn show(ui: &mut Ui, state: &mut State) {
@@ -14,6 +15,9 @@ pub fn show(ui: &mut Ui, state: &mut State) {
         list(ui, state);
     }
 }
+
+/// What a sentence may take beside its button.
+const ROWS: usize = 3;
 
 /// With less room a sentence has a row of its own, points.
 const LEAST: f32 = 740.0;
@@ -32,7 +36,7 @@ fn list(ui: &mut Ui, state: &mut State) {
                 }
                 if !low {
                     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                        ui.add(Label::new(message.text.as_str()).truncate()).on_hover_text(message.text.as_str());
+                        sentence(ui, &message.text);
                     });
                 }
             });
@@ -44,4 +48,12 @@ fn list(ui: &mut Ui, state: &mut State) {
     if let Some(index) = dismissed {
         state.messages.remove(index);
     }
+}
+
+/// A sentence in at most [`ROWS`] rows; all of it under the pointer.
+fn sentence(ui: &mut Ui, text: &str) {
+    let (font, colour) = (TextStyle::Body.resolve(ui.style()), ui.visuals().text_color());
+    let mut job = LayoutJob::simple(text.to_owned(), font, colour, ui.available_width());
+    job.wrap.max_rows = ROWS;
+    ui.add(Label::new(job).wrap().show_tooltip_when_elided(false)).on_hover_text(text);
 }

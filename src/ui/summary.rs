@@ -122,7 +122,7 @@ fn path(state: &State, subject: &Subject<'_>) -> Vec<Block> {
     let (strategy, [width, height]) = (state.selection.strategy, record.size.map(|v| v.to_string()));
     let [x, y] = record.pixel.map(|v| v.to_string());
     let scene = [&record.scene, &width, &height, &record.seed.to_string(), &record.max_edges.to_string()];
-    let sum = format::rgb(record.on_its_pixel(|_| true).to_array());
+    let sum = format::rgb(record.on_its_pixel(|strategy| !state.hidden.contains(strategy)).to_array());
     let mut blocks = vec![
         Block::Heading(fill(state.say(Text::InspectorTitle), &[&x, &y])),
         Block::Line(fill(state.say(SummaryText::Scene), &scene.map(String::as_str))),

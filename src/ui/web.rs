@@ -172,7 +172,13 @@ impl Watcher {
             state.drawn = Some(drawn);
         }
         for report in page::take_reports() {
-            state.tell(true, report);
+            // As egui-winit's twin for pages words it.
+            if report.starts_with("Copy/cut action failed") {
+                state.link.not_copied();
+                state.tell(true, WebText::NotCopied.in_language(lang).to_owned());
+            } else {
+                state.tell(true, report);
+            }
         }
         if let Some(unknown) = self.unknown.take() {
             state.tell(true, fill(WebText::NoSuchRenderer.in_language(lang), &[&unknown]));

@@ -133,7 +133,7 @@ fn header(ui: &mut Ui, state: &mut State, live: &Live) {
         search::buttons(ui, state);
     });
     if let Some(record) = live.record(state) {
-        let sum = format::rgb(record.on_its_pixel(|_| true).to_array());
+        let sum = format::rgb(record.on_its_pixel(|strategy| !state.hidden.contains(strategy)).to_array());
         let adds = ui.add(Label::new(fill(state.say(Text::SampleAdds), &[&sum])).truncate()).on_hover_text(state.say(Text::HelpSampleAdds));
         cite(&adds, || "adds:/strategies".to_owned());
     }

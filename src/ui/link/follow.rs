@@ -58,6 +58,12 @@ pub(super) enum Awaited {
 }
 
 impl LinkState {
+    /// What was said of a copy was too early: there is none.
+    #[cfg(target_arch = "wasm32")]
+    pub(in crate::ui) fn not_copied(&mut self) {
+        self.copied = None;
+    }
+
     /// As it was written, the link whose scene is not on show yet.
     pub fn pending(&self) -> Option<&str> {
         self.early().map(|coming| coming.text.as_str())

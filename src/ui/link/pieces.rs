@@ -6,7 +6,7 @@ use super::words::{
 };
 use super::{CompareMode, Link, Shared};
 use crate::bdpt::MAX_EDGES;
-use crate::engine::{MAX_SIDE, Mode};
+use crate::engine::Mode;
 use crate::film::difference::Metric;
 use crate::film::tonemap::ToneMap;
 use crate::math::Vec3;
@@ -57,6 +57,9 @@ macro_rules! piece {
     };
 }
 
+/// The longest side of an image that is shown: what eframe asks every graphics device for, texels.
+const MOST_SIDE: u32 = 8192;
+
 /// All pieces but the changes of the scene.
 pub const TABLE: &[Piece] = &[
     piece!("v", true, Between(1, u32::MAX), version),
@@ -72,7 +75,7 @@ pub const TABLE: &[Piece] = &[
     piece!("cam", Between(0, u32::MAX), camera),
     piece!("pose", Maybe(Standing), pose),
     piece!("lens", Maybe(OneLens), lens),
-    piece!("size", Several(Between(1, MAX_SIDE), 'x'), size),
+    piece!("size", Several(Between(1, MOST_SIDE), 'x'), size),
     piece!("k", Between(1, MAX_EDGES as u32), settings.max_edges),
     piece!("seed", Between(0, u32::MAX), settings.seed),
     piece!("weights", HEURISTICS, settings.heuristic.kind),

@@ -21,5 +21,5 @@ texts! { SummaryText;
     CloseTextView: "Close the text view", "关闭文字视图";
     ToText: "To what is selected, in words", "转到所选内容的文字说明";
     ToWindow: "Back to the window", "返回窗口";
-    KeyLeave: "Out of the window, to what is selected in words; from there on, the browser's keys", "离开窗口，转到所选内容的文字说明；此后由浏览器响应按键";
+    KeyLeave: "Out of the window, to what is selected in words, and back", "离开窗口，转到所选内容的文字说明，再按返回窗口";
 }

@@ -164,7 +164,7 @@ texts! { Text;
     Next: "Next", "下一个";
     FeasibleCount: "{} of {} carry light", "{} / {} 个有光";
     SampleAdds: "This sample adds {} to this pixel", "该采样为此像素贡献 {}";
-    HelpSampleAdds: "RGB, W m⁻² sr⁻¹: the sum of the weighted contributions that land on this pixel, hidden strategies included. The pixel is the mean over all samples, and gets light tracer contributions from other pixels' samples, too.", "RGB，W m⁻² sr⁻¹：落在此像素上的加权贡献之和，包括隐藏的策略。像素值是所有采样的平均，并且还会收到其他像素采样的光源追踪贡献。";
+    HelpSampleAdds: "RGB, W m⁻² sr⁻¹: the sum of the weighted contributions that land on this pixel, without the strategies that are hidden. The pixel is the mean over all samples, and gets light tracer contributions from other pixels' samples, too.", "RGB，W m⁻² sr⁻¹：落在此像素上的加权贡献之和，不含隐藏的策略。像素值是所有采样的平均，并且还会收到其他像素采样的光源追踪贡献。";
     NoRecord: "Click a pixel of the image.", "请点击图像中的一个像素。";
     TabStrategies: "Strategies", "采样策略";
     TabPath: "Path", "路径";

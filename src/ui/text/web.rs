@@ -12,5 +12,6 @@ texts! { WebText;
     Refused: "the browser gives no WebGPU adapter on this machine.", "浏览器在此设备上不提供 WebGPU 适配器。";
     Failed: "WebGPU failed ({}).", "WebGPU 失败（{}）。";
     NoSuchRenderer: "?renderer={} in the address is not known and was ignored: it may be webgpu, webgl or cpu.", "地址中的 ?renderer={} 无法识别，已忽略：可用 webgpu、webgl 或 cpu。";
+    NotCopied: "The browser let nothing be copied; a link can be taken from the address bar.", "浏览器不允许复制；链接可从地址栏复制。";
     HalfSize: "The memory was used up, so the film has half its width and height: {}×{}.", "内存曾用尽，因此画幅的宽和高减半：{}×{}。";
 }

@@ -27,7 +27,7 @@ use web_time::Instant;
 
 /// The HTML is looked through at most so often.
 const PACE: Duration = Duration::from_millis(500);
-/// The key that leaves the canvas.
+/// The key that leaves the canvas, and comes back.
 const LEAVE: &str = "F6";
 
 /// Does the browser say so of its person?
@@ -190,21 +190,18 @@ fn focus(id: &str) {
     page::element(id).and_then(|element| element.dyn_into::<HtmlElement>().ok()).map(|element| element.focus());
 }
 
-/// Is the keyboard in the canvas (or in the field next to it, in which egui hears what is typed)?
-fn in_canvas(document: &Document) -> bool {
-    let stage = page::element("stage");
-    document.active_element().zip(stage).is_some_and(|(active, stage)| stage.contains(Some(&active)))
-}
-
-/// The key leaves the canvas; anywhere else it is the browser's.
+/// The key leaves the canvas for the words, and the words for the canvas; anywhere else it is the browser's.
 fn leave(document: &Document) -> Option<Closure<dyn FnMut(KeyboardEvent)>> {
     let place = document.clone();
     let listener = Closure::<dyn FnMut(KeyboardEvent)>::new(move |event: KeyboardEvent| {
         let plain = !(event.ctrl_key() || event.alt_key() || event.meta_key() || event.shift_key());
-        if event.key() == LEAVE && plain && in_canvas(&place) {
+        let inside = |id: &str| place.active_element().zip(page::element(id)).is_some_and(|(active, part)| part.contains(Some(&active)));
+        // The canvas has a field beside it, in which egui hears what is typed.
+        let next = if inside("stage") { Some("summary") } else { inside("summary").then_some("canvas") };
+        if let Some(next) = next.filter(|_| event.key() == LEAVE && plain) {
             event.prevent_default();
             event.stop_propagation();
-            focus("summary");
+            focus(next);
         }
     });
     // Before the canvas hears of it.
