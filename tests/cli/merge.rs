@@ -110,9 +110,9 @@ fn every_sample_counts_the_same_however_they_are_divided() {
     for (name, seeds, spp) in [("one", "0..1", 64), ("many", "100..164", 1), ("few", "200..204", 16), ("thin", "300..301", 1)] {
         succeed(folder.path(), &format!("render furnace -o {name}.exr --size 24x24 --seed-range {seeds} --spp {spp}"));
     }
-    // Three standard errors of the mean over 64 · 576 paths (measured over 40 seeds: 0.0011 each).
+    // Three standard deviations of such a picture's mean (measured over 24 films: 0.00103).
     for name in ["one.exr", "many.exr", "few.exr"] {
-        assert!((brightness(name) - exact).abs() < 0.0033, "{name}: {}", brightness(name));
+        assert!((brightness(name) - exact).abs() < 0.0031, "{name}: {}", brightness(name));
     }
     // Films of 64 samples and of one: the mean is that of the samples, not of the films.
     let output = succeed(folder.path(), "merge one.exr thin.exr -o both.exr");
@@ -158,7 +158,8 @@ fn the_gpu_goes_through_the_same_seeds() {
     }
     let (gpu, cpu, less) = (sums(&path("gpu.exr")), sums(&path("cpu.exr")), sums(&path("less.exr")));
     let same = |other: &[f64]| gpu.iter().zip(other).filter(|(a, b)| (*a - *b).abs() <= 1e-4 * b.abs()).count() as f64;
-    assert!(same(&cpu) > 0.99 * gpu.len() as f64 && same(&less) < 0.1 * gpu.len() as f64, "{} {}", same(&cpu), same(&less));
+    // A quarter of the pixels is black, or has no light of the second seed.
+    assert!(same(&cpu) > 0.99 * gpu.len() as f64 && same(&less) < 0.5 * gpu.len() as f64, "{} {}", same(&cpu), same(&less));
     assert_eq!(label(&path("gpu.exr")), label(&path("cpu.exr")));
 }
 
