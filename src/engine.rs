@@ -21,6 +21,7 @@ mod replay;
 mod session;
 mod stats;
 mod study;
+mod sums;
 mod surveyor;
 mod thread;
 pub use batches::Intervals;

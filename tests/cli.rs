@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used)]
 
+#[path = "cli/merge.rs"]
+mod merge;
 #[path = "cli/no_window.rs"]
 mod no_window;
 #[path = "common/skip.rs"]
@@ -70,6 +72,13 @@ fn bad_input_is_one_line_and_status_2_and_leaves_nothing() {
         ("render cornell -o a.exr --time NaN", "--time"),
         ("render cornell -o a.exr --time inf", "--time"),
         ("render cornell -o a.exr --time -3", "--time"),
+        ("render cornell -o a.exr --seed-range 4..4", "give first..end, such as 0..4"),
+        ("render cornell -o a.exr --seed-range 0..4 --seed 1", "--seed"),
+        ("render cornell -o a.exr --seed-range 0..4 --time 1", "--time"),
+        ("render cornell -o a.exr --seed-range 0..70000 --spp 70000", "divide the range and `merge` the films"),
+        ("merge a.exr", "--output"),
+        ("merge -o a.exr", "<FILE>"),
+        ("merge none.exr -o a.jpg", ".exr"),
         ("render cornell -o a.exr --max-edges 0", "--max-edges"),
         ("render cornell -o a.exr --max-edges 100000", "--max-edges"),
         ("render cornell -o a.exr --size 0x0", "--size"),
@@ -140,7 +149,7 @@ fn bad_input_is_one_line_and_status_2_and_leaves_nothing() {
 #[test]
 fn help_and_version_are_no_errors() {
     let folder = tempfile::tempdir().unwrap();
-    for line in ["--help", "--version", "render --help", "inspect -h", "help render"] {
+    for line in ["--help", "--version", "render --help", "merge --help", "inspect -h", "help render"] {
         let output = succeed(folder.path(), line);
         assert!(!output.stdout.is_empty() && output.stderr.is_empty(), "{line}");
     }

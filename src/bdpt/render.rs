@@ -56,7 +56,15 @@ impl LayerId {
     pub fn mean(self, means: &Means, pixel: usize) -> Vec3 {
         if self.splat { means.splat(self.layer, pixel) } else { means.pixel(self.layer, pixel) }
     }
+
+    /// Its sum over complete passes at a pixel.
+    pub fn sum(self, film: &Film, pixel: usize) -> [f64; 3] {
+        if self.splat { film.splat_sum(self.layer, pixel) } else { film.pixel_sum(self.layer, pixel) }
+    }
 }
+
+/// The layers that add up to the image.
+pub const IMAGE: [LayerId; 2] = [LayerId { layer: 0, splat: false }, LayerId { layer: 0, splat: true }];
 
 /// The image at a pixel, accumulated on its own.
 #[inline]

@@ -8,6 +8,7 @@ use crate::report::check::Check;
 use crate::scene::environment::EnvironmentSource;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgAction, Args, Parser, Subcommand};
+use std::ops::Range;
 use std::path::PathBuf;
 
 /// See bidirectional path tracing: without a command, a window opens on SCENE.
@@ -29,6 +30,8 @@ pub enum Command {
     Scenes,
     /// Render a scene into files
     Render(RenderArgs),
+    /// Add up what `render --seed-range` wrote, on one machine or on many, as one machine would have rendered it
+    Merge(MergeArgs),
     /// Show how one sample of one pixel was made: both subpaths, every strategy, its weight, its contribution
     Inspect(InspectArgs),
     /// Is the image of a scene right? Paths rebuilt by every strategy, strategies against each other, known answers;
@@ -43,12 +46,16 @@ pub struct RenderArgs {
     /// Where to: .exr (linear radiance) or .png (tone-mapped)
     #[arg(short, long, value_name = "FILE", value_parser = picture_path, required_unless_present_any = ["pyramid", "stats"])]
     pub output: Option<PathBuf>,
-    /// Samples per pixel [default: 64]
+    /// Samples per pixel, of each seed [default: 64]
     #[arg(long, value_name = "N", value_parser = positive, allow_hyphen_values = true, conflicts_with = "time")]
     pub spp: Option<u32>,
     /// Render for this many seconds instead
     #[arg(long, value_name = "S", value_parser = seconds, allow_hyphen_values = true)]
     pub time: Option<f64>,
+    /// Render with each of the seeds A, A + 1, … B − 1 (B is not among them); an .exr then also holds the sums and which samples
+    /// they are of, for `merge`. Ctrl-C keeps the seeds that are done and the first samples of the one at work
+    #[arg(long, value_name = "A..B", value_parser = seeds, allow_hyphen_values = true, conflicts_with_all = ["seed", "time"])]
+    pub seed_range: Option<Range<u32>>,
     /// Only this window of the picture, from its top left pixel; what lies in it does not change
     #[arg(long, value_name = "X,Y,W,H", value_parser = crop, allow_hyphen_values = true)]
     pub crop: Option<Crop>,
@@ -59,18 +66,38 @@ pub struct RenderArgs {
     /// left out of the sum and all weights stay (hide)
     #[arg(long = "strategies-mode", value_name = "MODE", action = ArgAction::Set, value_parser = PossibleValuesParser::new(["remove", "hide"]).map(|mode| mode == "hide"), default_value = "remove")]
     pub hide: bool,
-    /// Exposure of .png files, in stops
-    #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true, default_value = "0")]
-    pub exposure: f32,
-    /// Tone curve of .png files
-    #[arg(long, value_name = "NAME", value_parser = tonemap_parser(), default_value = "srgb")]
-    pub tonemap: ToneMap,
+    #[command(flatten)]
+    pub look: LookArgs,
     /// Write pyramid.exr (a layer per strategy) and contact-sheet.png into this folder
     #[arg(long, value_name = "DIR")]
     pub pyramid: Option<PathBuf>,
     /// Write counts and times as JSON
     #[arg(long, value_name = "FILE")]
     pub stats: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub struct MergeArgs {
+    /// Films with sums: .exr files that `render --seed-range` or `merge` wrote, of the same scene and settings and of different
+    /// seeds
+    #[arg(required = true, value_name = "FILE")]
+    pub films: Vec<PathBuf>,
+    /// Where to: .exr (linear radiance, with the sums: it can be merged again) or .png (tone-mapped); may be one of the films
+    #[arg(short, long, value_name = "FILE", value_parser = picture_path)]
+    pub output: PathBuf,
+    #[command(flatten)]
+    pub look: LookArgs,
+}
+
+/// How a .png file shows radiance.
+#[derive(Args, Clone, Copy)]
+pub struct LookArgs {
+    /// Exposure of .png files, in stops
+    #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true, default_value = "0")]
+    pub exposure: f32,
+    /// Tone curve of .png files
+    #[arg(long, value_name = "NAME", value_parser = tonemap_parser(), default_value = "srgb")]
+    pub tonemap: ToneMap,
 }
 
 #[derive(Args)]

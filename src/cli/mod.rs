@@ -6,12 +6,14 @@ mod args;
 mod check;
 mod inspect;
 mod job;
+mod merge;
 mod progress;
 mod render;
 mod values;
 
 use crate::engine::{JobError, Still};
 use crate::film::save::SaveError;
+use crate::film::sums::SumsError;
 use crate::scene::{SceneError, builtin};
 use args::{Command, Options};
 use clap::Parser;
@@ -43,6 +45,12 @@ impl From<JobError> for Failure {
 
 impl From<SaveError> for Failure {
     fn from(error: SaveError) -> Self {
+        Self(error.to_string())
+    }
+}
+
+impl From<SumsError> for Failure {
+    fn from(error: SumsError) -> Self {
         Self(error.to_string())
     }
 }
@@ -87,6 +95,7 @@ where
         (Some(_), Some(word)) => Err(Failure(format!("'{word}' stands before the command; the command comes first, then its scene"))),
         (Some(Command::Scenes), None) => scenes().map(|()| ExitCode::SUCCESS),
         (Some(Command::Render(args)), None) => render::run(&args).map(|()| ExitCode::SUCCESS),
+        (Some(Command::Merge(args)), None) => merge::run(&args).map(|()| ExitCode::SUCCESS),
         (Some(Command::Inspect(args)), None) => inspect::run(&args).map(|()| ExitCode::SUCCESS),
         (Some(Command::Check(args)), None) => check::run(&args),
     };

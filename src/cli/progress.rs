@@ -2,9 +2,11 @@
 
 use super::Failure;
 use crate::engine::Session;
+use crate::film::runs::Runs;
 use crate::scene::Progress;
 use crate::scene::progress::Stage;
 use indicatif::{ProgressBar, ProgressStyle};
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::{Duration, Instant};
 
@@ -31,33 +33,73 @@ pub fn listen(answer: &'static str) -> Result<(), Failure> {
     ctrlc::set_handler(on_interrupt).map_err(|error| Failure(format!("Ctrl-C cannot be handled here: {error}")))
 }
 
+/// What Ctrl-C is answered with.
+const STOPPING: &str = "stopping after this pass, then writing what is done (Ctrl-C again: at once, without writing)";
+
 /// Renders until `limit`; true if Ctrl-C ended it earlier.
 pub fn run(session: &mut Session, limit: Limit) -> Result<bool, Failure> {
-    listen("stopping after this pass, then writing what is done (Ctrl-C again: at once, without writing)")?;
+    listen(STOPPING)?;
     session.wait_for_renderer();
+    let bar = bar(limit);
+    let interrupted = until(session, limit, 1, |session, elapsed| show(&bar, session, limit, elapsed));
+    close(&bar, interrupted);
+    Ok(interrupted)
+}
+
+/// Renders `spp` samples per pixel with each of the seeds, and says what is in the film then: less, if Ctrl-C ended it.
+pub fn run_seeds(session: &mut Session, seeds: &Range<u32>, spp: u32) -> Result<Runs, Failure> {
+    listen(STOPPING)?;
+    session.wait_for_renderer();
+    let limit = Limit { spp: Some(spp), time: None };
+    let all = Limit { spp: Some(spp.saturating_mul(seeds.end - seeds.start)), time: None };
+    let (bar, mut runs, mut interrupted) = (bar(all), Runs::default(), false);
+    for seed in seeds.clone() {
+        let number = seed - seeds.start;
+        session.next_seed(seed);
+        // There is always something to write: the first pass of the first seed.
+        interrupted = until(session, limit, u32::from(number == 0), |session, _| {
+            let passes = session.passes();
+            bar.set_position(1000 * (u64::from(number) * u64::from(spp) + u64::from(passes)) + part(session));
+            bar.set_message(format!("seed {seed} of {seeds:?}, {passes}/{spp} spp"));
+        });
+        // Each seed comes once.
+        let _ = runs.add(seed..seed + 1, session.passes());
+        if interrupted {
+            break;
+        }
+    }
+    close(&bar, interrupted);
+    Ok(runs)
+}
+
+/// Renders until `limit` and collects; true if Ctrl-C ended it earlier, after `least` passes or more.
+fn until(session: &mut Session, limit: Limit, least: u32, mut show: impl FnMut(&Session, Duration)) -> bool {
     session.set_limit(limit.spp.unwrap_or(u32::MAX));
     let start = Instant::now();
-    let bar = bar(limit);
     loop {
         let (passes, elapsed) = (session.passes(), start.elapsed());
-        show(&bar, session, limit, elapsed);
+        show(session, elapsed);
         let done = limit.spp.is_some_and(|spp| passes >= spp) || limit.time.is_some_and(|time| passes >= 1 && elapsed >= time);
-        let interrupted = INTERRUPTED.load(Relaxed) && passes >= 1 && session.pass_fraction() == 0.0;
+        let interrupted = INTERRUPTED.load(Relaxed) && passes >= least && session.pass_fraction() == 0.0;
         if done || interrupted {
             session.collect();
             // What a GPU could not hand over is rendered again.
             if session.passes() < passes {
                 continue;
             }
-            if done {
-                bar.finish_and_clear();
-            } else {
-                bar.abandon();
-            }
-            return Ok(!done);
+            return !done;
         }
         let left = limit.time.map_or(Duration::MAX, |time| time.saturating_sub(elapsed));
         session.step(left.min(Duration::from_millis(100)));
+    }
+}
+
+/// Ends a bar: what was interrupted remains to be seen.
+fn close(bar: &ProgressBar, interrupted: bool) {
+    if interrupted {
+        bar.abandon();
+    } else {
+        bar.finish_and_clear();
     }
 }
 
@@ -108,11 +150,16 @@ fn bar(limit: Limit) -> ProgressBar {
     bar
 }
 
+/// How much of the current pass is done, in thousandths.
+fn part(session: &Session) -> u64 {
+    (1000.0 * session.pass_fraction()) as u64
+}
+
 fn show(bar: &ProgressBar, session: &Session, limit: Limit, elapsed: Duration) {
     let passes = session.passes();
     match limit.spp {
         Some(spp) => {
-            bar.set_position(1000 * u64::from(passes) + (1000.0 * session.pass_fraction()) as u64);
+            bar.set_position(1000 * u64::from(passes) + part(session));
             bar.set_message(format!("{passes}/{spp} spp"));
         }
         None => {

@@ -1,18 +1,20 @@
 //! `render`: from a job to files. Also what happens where no window can be opened.
 
-use super::args::RenderArgs;
+use super::args::{LookArgs, RenderArgs};
 use super::job::{Prepared, open, prepare, say_notes, say_what_is_lost};
+use super::merge;
 use super::progress::{self, Limit};
 use super::{Failure, print};
 use crate::bdpt::{HeuristicKind, Strategy, StrategySet};
 use crate::engine::{Job, Notice, Session, Still};
-use crate::film::Rect;
+use crate::film::runs::Runs;
 use crate::film::save::{Layer, Window, check_writable, save_bytes, save_exr, save_png};
-use crate::film::tonemap::{Look, ToneMap, to_srgb8};
+use crate::film::tonemap::{Look, to_srgb8};
 use crate::math::Vec3;
 use crate::report::{ContactSheet, Heading};
 use crate::scene::Overrides;
 use std::fs;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -31,11 +33,18 @@ pub fn run(args: &RenderArgs) -> Result<(), Failure> {
     job.weighted_layers |= args.pyramid.is_some();
     job.raw_layers = args.pyramid.is_some();
     job.check()?;
+    check_seeds(args)?;
     check_outputs(args)?;
+    if args.seed_range.is_some() && args.output.as_deref().is_some_and(merge::is_png) {
+        eprintln!("note: a .png holds no sums; name an .exr to `merge` it");
+    }
     let time = args.time.map(Duration::from_secs_f64);
     let limit = Limit { spp: args.spp.or(if time.is_none() { Some(SPP) } else { None }), time };
-    let mut rendering = Rendering { session: Session::new(job)?, shown, hide, exposure_ev: args.exposure, tonemap: args.tonemap };
-    let interrupted = progress::run(&mut rendering.session, limit)?;
+    let mut rendering = Rendering { session: Session::new(job)?, shown, hide, runs: None, look: args.look };
+    let interrupted = match &args.seed_range {
+        None => progress::run(&mut rendering.session, limit)?,
+        Some(seeds) => rendering.run_seeds(seeds, limit.spp.unwrap_or(SPP))?,
+    };
     let mut files = Vec::new();
     if let Some(path) = &args.output {
         rendering.save_picture(path)?;
@@ -76,7 +85,8 @@ pub fn without_window(why: &str, instead: Still) -> Result<(), Failure> {
     create_folder(folder)?;
     let [png, exr] = ["png", "exr"].map(|extension| folder.join(format!("{stem}.{extension}")));
     check_writable(&png)?;
-    let mut rendering = Rendering { session: Session::new(job)?, shown, hide, exposure_ev: look.exposure_ev, tonemap: look.tonemap };
+    let look = LookArgs { exposure: look.exposure_ev, tonemap: look.tonemap };
+    let mut rendering = Rendering { session: Session::new(job)?, shown, hide, runs: None, look };
     let interrupted = progress::run(&mut rendering.session, Limit { spp: Some(SPP), time: Some(PATIENCE) })?;
     rendering.save_picture(&png)?;
     rendering.save_picture(&exr)?;
@@ -104,6 +114,20 @@ fn check_outputs(args: &RenderArgs) -> Result<(), Failure> {
     Ok(())
 }
 
+/// A film counts a pixel's samples in 32 bits.
+fn check_seeds(args: &RenderArgs) -> Result<(), Failure> {
+    let Some(seeds) = &args.seed_range else { return Ok(()) };
+    let spp = args.spp.unwrap_or(SPP);
+    let samples = u64::from(seeds.end - seeds.start) * u64::from(spp);
+    if samples > u64::from(u32::MAX) {
+        return Err(Failure(format!(
+            "--seed-range {seeds:?} with {spp} samples per pixel each are {samples}, and one film holds {}; divide the range and `merge` the films",
+            u32::MAX
+        )));
+    }
+    Ok(())
+}
+
 /// Do two paths name the same regular file, whether or not it exists yet?
 pub fn same_file(a: &Path, b: &Path) -> bool {
     let place = |path: &Path| {
@@ -125,14 +149,22 @@ struct Rendering {
     shown: Vec<Strategy>,
     /// Are there others that take part?
     hide: bool,
-    exposure_ev: f32,
-    tonemap: ToneMap,
+    /// With a range of seeds: the samples in the film.
+    runs: Option<Runs>,
+    look: LookArgs,
 }
 
 impl Rendering {
+    /// Renders with each seed; true if Ctrl-C ended it earlier.
+    fn run_seeds(&mut self, seeds: &Range<u32>, spp: u32) -> Result<bool, Failure> {
+        let runs = progress::run_seeds(&mut self.session, seeds, spp)?;
+        let interrupted = runs.samples() < u64::from(seeds.end - seeds.start) * u64::from(spp);
+        self.runs = Some(runs);
+        Ok(interrupted)
+    }
+
     fn window(&self) -> Window {
-        let job = self.session.job();
-        Window { film: job.size, rect: job.crop.unwrap_or(Rect::full(job.size)) }
+        self.session.job().window()
     }
 
     fn image(&self) -> Vec<Vec3> {
@@ -145,9 +177,12 @@ impl Rendering {
     }
 
     fn save_picture(&self, path: &Path) -> Result<(), Failure> {
+        if let Some(runs) = &self.runs {
+            return merge::save(&self.session.sums(&self.shown, runs.clone()), path, &self.look);
+        }
         let (window, image) = (self.window(), self.image());
-        if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png")) {
-            let rgb: Vec<u8> = window.pick(&image).flat_map(|pixel| to_srgb8(pixel, self.exposure_ev, self.tonemap)).collect();
+        if merge::is_png(path) {
+            let rgb: Vec<u8> = window.pick(&image).flat_map(|pixel| to_srgb8(pixel, self.look.exposure, self.look.tonemap)).collect();
             return Ok(save_png(path, window.size(), &rgb)?);
         }
         Ok(save_exr(path, window, &[Layer { name: "", pixels: &image }])?)
@@ -166,7 +201,7 @@ impl Rendering {
 
     fn save_contact_sheet(&self, folder: &Path) -> Result<PathBuf, Failure> {
         let (job, details) = (self.session.job(), self.details());
-        let heading = Heading { title: job.scene.name.clone(), details, exposure_ev: self.exposure_ev, tonemap: self.tonemap };
+        let heading = Heading { title: job.scene.name.clone(), details, exposure_ev: self.look.exposure, tonemap: self.look.tonemap };
         let mut sheet = ContactSheet::new(heading, self.window(), &self.image(), job.settings.max_edges);
         for &strategy in &self.shown {
             if let Some(layer) = self.session.layer(strategy, true) {
@@ -195,7 +230,8 @@ impl Rendering {
         };
         let roulette = if settings.roulette { "" } else { " · no roulette" };
         let hidden = if self.hide { " · some strategies hidden" } else { "" };
-        format!("{} · K = {} · {heuristic} · seed {}{roulette}{hidden}", self.extent(), settings.max_edges, settings.seed)
+        let seeds = self.runs.as_ref().map_or(format!("seed {}", settings.seed), |runs| format!("seeds {}", runs.seeds()));
+        format!("{} · K = {} · {heuristic} · {seeds}{roulette}{hidden}", self.extent(), settings.max_edges)
     }
 
     /// Size and samples.
@@ -214,8 +250,10 @@ impl Rendering {
         if let Some(Notice::DeviceReplaced(why)) = &stats.notice {
             eprintln!("note: {why}; another was opened, and nothing is missing");
         }
-        if interrupted {
-            eprintln!("note: stopped by Ctrl-C after {passes} samples per pixel");
+        match &self.runs {
+            Some(runs) if interrupted => eprintln!("note: stopped by Ctrl-C; seeds and samples per pixel that are done: {runs}"),
+            None if interrupted => eprintln!("note: stopped by Ctrl-C after {passes} samples per pixel"),
+            _ => {}
         }
         if self.session.pass_fraction() > 0.0 {
             let done = 100.0 * self.session.pass_fraction();

@@ -2,6 +2,8 @@
 
 use crate::bdpt::strategy::MAX_EDGES;
 use crate::engine::Crop;
+use crate::film::runs::parse_range;
+use std::ops::Range;
 use std::path::PathBuf;
 
 /// A whole number from 0 on.
@@ -12,6 +14,11 @@ pub fn natural(text: &str) -> Result<u32, String> {
 /// A whole number from 1 on.
 pub fn positive(text: &str) -> Result<u32, String> {
     text.parse().ok().filter(|&n| n > 0).ok_or(format!("give a whole number from 1 to {}", u32::MAX))
+}
+
+/// `A..B`, seeds.
+pub fn seeds(text: &str) -> Result<Range<u32>, String> {
+    parse_range(text).ok_or("give first..end, such as 0..4 for the seeds 0, 1, 2, 3; the end is not among them".to_owned())
 }
 
 /// K.
@@ -106,6 +113,7 @@ mod tests {
         assert_eq!((beta("0.5"), fraction("1"), stops("-2"), seconds("1e-3")), (Ok(0.5), Ok(1.0), Ok(-2.0), Ok(1e-3)));
         assert_eq!((lens_radius("0"), lens_radius("0.05"), degrees("-90")), (Ok(0.0), Ok(0.05), Ok(-90.0)));
         assert_eq!((focus_distance("1e-3"), focus_distance("inf")), (Ok(1e-3), Ok(f32::INFINITY)));
+        assert_eq!((seeds("0..4"), seeds("4294967294..4294967295")), (Ok(0..4), Ok(u32::MAX - 1..u32::MAX)));
         assert!(picture_path("a.b.EXR").is_ok() && picture_path("x/y.png").is_ok());
     }
 
@@ -116,6 +124,9 @@ mod tests {
         }
         for text in ["", "1", "1,2,3", "-1,0", "1, 2", "a,b"] {
             assert!(pixel(text).is_err(), "{text}");
+        }
+        for text in ["", "4", "..", "0..", "..4", "4..4", "5..4", "0..4294967296", "-1..4", "0...4", "0..=4", "0-4", "0.. 4"] {
+            assert!(seeds(text).is_err(), "{text}");
         }
         for text in ["", "1,2,3", "1,2,0,4", "1,2,3,0", "1,2,3,4,5", "-1,2,3,4"] {
             assert!(crop(text).is_err(), "{text}");

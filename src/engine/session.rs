@@ -50,6 +50,8 @@ pub struct Session {
     for_window: bool,
     /// No pass from this one on is rendered.
     limit: u32,
+    /// Samples per pixel of the seeds before this one.
+    before: u32,
     counts: Counts,
     elapsed: Duration,
     cpu: Duration,
@@ -76,6 +78,7 @@ impl Session {
             preparing: None,
             for_window: false,
             limit: u32::MAX,
+            before: 0,
             counts: Counts::default(),
             elapsed: Duration::ZERO,
             cpu: Duration::ZERO,
@@ -123,6 +126,17 @@ impl Session {
     /// No more than so many passes are rendered.
     pub fn set_limit(&mut self, passes: u32) {
         self.limit = passes;
+    }
+
+    /// Goes on with the samples of another seed, from the first: the film keeps what it has, so that its means are those over
+    /// all seeds. For who has collected whole passes.
+    pub fn next_seed(&mut self, seed: u32) {
+        self.before = self.film.most_samples();
+        self.job.settings.seed = seed;
+        match &mut self.worker {
+            Worker::Cpu(work) => work.pass = 0,
+            Worker::Gpu(renderer) => renderer.restart(seed),
+        }
     }
 
     /// Renders for about `budget`: the CPU at most to the end of the current pass, the GPU to the end of the last one that is
@@ -232,7 +246,7 @@ impl Session {
         &self.job
     }
 
-    /// Complete passes, that is samples per pixel everywhere.
+    /// Complete passes of this seed, that is samples per pixel everywhere.
     pub fn passes(&self) -> u32 {
         match &self.worker {
             Worker::Cpu(work) => work.pass,

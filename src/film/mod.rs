@@ -9,8 +9,10 @@
 pub mod colourmap;
 pub mod difference;
 pub mod picture;
+pub mod runs;
 pub mod save;
 pub mod scale;
+pub mod sums;
 pub mod tonemap;
 
 use crate::math::Vec3;
@@ -155,6 +157,18 @@ impl Film {
     /// Samples of the row that has the most.
     pub fn most_samples(&self) -> u32 {
         self.row_samples.iter().copied().max().unwrap_or(0)
+    }
+
+    /// Sum of a pixel layer at a pixel, RGB, radiance.
+    pub fn pixel_sum(&self, layer: usize, pixel: usize) -> [f64; 3] {
+        let at = (pixel * self.layers.pixel + layer) * 3;
+        [self.sums[at], self.sums[at + 1], self.sums[at + 2]]
+    }
+
+    /// Sum of a splat layer at a pixel, over complete passes, RGB, radiance.
+    pub fn splat_sum(&self, layer: usize, pixel: usize) -> [f64; 3] {
+        let at = (pixel * self.layers.splat + layer) * 3;
+        [self.folded[at], self.folded[at + 1], self.folded[at + 2]]
     }
 
     /// The means, for someone who looks at the film as it is now.

@@ -82,19 +82,32 @@ pub fn save_exr(path: &Path, window: Window, layers: &[Layer<'_>]) -> Result<(),
 /// # Errors
 /// The encoder's sentence.
 pub fn exr_bytes(window: Window, layers: &[Layer<'_>]) -> Result<Vec<u8>, String> {
-    let mut channels = exr::SmallVec::new();
-    for layer in layers {
-        for (index, letter) in ["R", "G", "B"].into_iter().enumerate() {
+    let channels = layers.iter().flat_map(|layer| {
+        ["R", "G", "B"].into_iter().enumerate().map(move |(index, letter)| {
             let name = if layer.name.is_empty() { letter.to_owned() } else { format!("{}.{letter}", layer.name) };
-            let samples = exr::FlatSamples::F32(window.pick(layer.pixels).map(|pixel| pixel[index]).collect());
-            channels.push(exr::AnyChannel::new(name.as_str(), samples));
-        }
-    }
+            (name, window.pick(layer.pixels).map(|pixel| pixel[index]).collect())
+        })
+    });
+    encode(window, channels, None)
+}
+
+/// An EXR of these channels, named, each with the window's values row by row from the top; `label` is the name and the value of
+/// a text in its header.
+pub(super) fn encode(
+    window: Window,
+    channels: impl Iterator<Item = (String, Vec<f32>)>,
+    label: Option<(&str, &str)>,
+) -> Result<Vec<u8>, String> {
+    let channels = channels.map(|(name, values)| exr::AnyChannel::new(name.as_str(), exr::FlatSamples::F32(values))).collect();
     let encoding =
         exr::Encoding { compression: exr::Compression::ZIP16, blocks: exr::Blocks::ScanLines, line_order: exr::LineOrder::Increasing };
     let rect = window.rect;
     let pair = |x: u32, y: u32| exr::Vec2(x as usize, y as usize);
-    let attributes = exr::LayerAttributes { layer_position: pair(rect.x, rect.y).to_i32(), ..Default::default() };
+    let mut attributes = exr::LayerAttributes { layer_position: pair(rect.x, rect.y).to_i32(), ..Default::default() };
+    if let Some((name, text)) = label {
+        // A header is bytes: UTF-8, whatever is in it.
+        attributes.other.insert(exr::Text::from(name), exr::AttributeValue::Text(exr::Text::from_slice_unchecked(text.as_bytes())));
+    }
     let layer = exr::Layer::new(pair(rect.width, rect.height), attributes, encoding, exr::AnyChannels::sort(channels));
     let display = exr::IntegerBounds::new((0, 0), pair(window.film[0], window.film[1]));
     let image = exr::Image::new(exr::ImageAttributes::new(display), layer);

@@ -139,6 +139,12 @@ impl Renderer {
         (self.pass, self.next) = (pass, 0);
     }
 
+    /// Begins anew with another seed; what is summed up stays.
+    pub fn restart(&mut self, seed: u32) {
+        self.params.seed = seed;
+        self.start_at(0);
+    }
+
     /// Submits work for about `budget`, up to the end of pass `limit`, and waits until all but the last slice of it is done. At
     /// most [`MOST_PASSES`] can wait to be collected.
     ///

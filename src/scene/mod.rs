@@ -12,6 +12,7 @@ pub mod builtin;
 pub mod bvh;
 pub mod camera;
 pub mod defaults;
+pub mod digest;
 pub mod edit;
 mod emitters;
 pub mod environment;
