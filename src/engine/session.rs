@@ -232,6 +232,11 @@ impl Session {
         self.fallback.is_some()
     }
 
+    /// Is it decided for good who renders, with which kernels?
+    pub fn is_settled(&self) -> bool {
+        self.preparing.is_none()
+    }
+
     /// Time spent rendering so far: by the clock, and of the processor, all threads.
     pub fn spent(&self) -> (Duration, Duration) {
         (self.elapsed, self.cpu)

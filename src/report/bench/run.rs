@@ -65,6 +65,7 @@ pub fn measure(wanted: &Wanted, control: &mut Control) -> Result<Option<SceneRes
     (control.tell)(0.0, "the reference");
     let Some(reference) = reference(wanted, control)? else { return Ok(None) };
     (control.tell)(0.3, "the pilot");
+    warm_up(wanted, control)?;
     let Some(budget) = budget(wanted, clock, control)? else { return Ok(None) };
     let mut methods = wanted.methods.iter().map(|&method| blank(wanted, method)).collect::<Vec<_>>();
     let turns = (wanted.seeds * methods.len() as u32).max(1);
@@ -152,6 +153,18 @@ fn budget(wanted: &Wanted, clock: Clock, control: &mut Control) -> Result<Option
     let (wall, cpu) = session.spent();
     let taken = if clock == Clock::Cpu { cpu } else { wall };
     Ok(Some(wanted.time.unwrap_or(taken.as_secs_f64())))
+}
+
+/// Lets a GPU get its last kernels, so that none are compiled while it is measured, nor when the program ends.
+fn warm_up(wanted: &Wanted, control: &Control) -> Result<(), JobError> {
+    let Some(method) = wanted.methods.iter().find(|method| method.backend == Backend::Gpu) else { return Ok(()) };
+    let mut session = Session::new(method.job(&wanted.job, PILOT_SEED))?;
+    session.wait_for_renderer();
+    while !session.is_settled() && !control.is_cancelled() {
+        session.set_limit(session.passes() + 1);
+        session.step(SLICE);
+    }
+    Ok(())
 }
 
 /// What a rendering is held against, and when it is looked at.

@@ -178,7 +178,7 @@ mod tests {
             near(against - noise, own, 0.03);
             assert!((against / own - 1.0).abs() > 0.03, "the control: with the noise it is another number");
         }
-        assert_eq!(reference_noise(&[truth.clone()], &truth), None);
+        assert_eq!(reference_noise(std::slice::from_ref(&truth), &truth), None);
         // Two halves: the half-difference.
         let halves = [vec![Vec3::splat(1.0)], vec![Vec3::splat(3.0)]];
         near(reference_noise(&halves, &mean_image(&halves)).unwrap(), 1.0 / 4.01, 1e-6);
