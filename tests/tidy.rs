@@ -32,7 +32,7 @@ const HOMES: &[(&str, &[&str])] = &[
     ("pollster", &["task/thread.rs"]),
     ("rayon", &["bdpt/", "film/", "engine.rs", "engine/", "report/check/", "scene/gltf/images.rs"]),
     ("rfd", &["ui/"]),
-    ("statrs", &["engine/batches.rs", "report/check/"]),
+    ("statrs", &["engine/batches.rs", "report/bench/", "report/check/"]),
     ("wasm_bindgen", &["task/page.rs", "ui/web.rs", "ui/web/"]),
     ("wasm_bindgen_futures", &["task/page.rs", "ui/web.rs", "ui/web/"]),
     ("web_sys", &["task/page.rs", "ui/web.rs", "ui/web/"]),

@@ -19,6 +19,22 @@ pub enum HeuristicKind {
     Uniform,
 }
 
+impl HeuristicKind {
+    /// All of them, in the order they are offered.
+    pub const ALL: [Self; 5] = [Self::Power, Self::Balance, Self::Max, Self::Cutoff, Self::Uniform];
+
+    /// What it is called on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Power => "power",
+            Self::Balance => "balance",
+            Self::Max => "max",
+            Self::Cutoff => "cutoff",
+            Self::Uniform => "uniform",
+        }
+    }
+}
+
 /// A heuristic with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Heuristic {

@@ -4,6 +4,7 @@ use super::values::*;
 use crate::bdpt::{HeuristicKind, Strategy};
 use crate::engine::{Backend, Crop};
 use crate::film::tonemap::ToneMap;
+use crate::report::bench::Integrator;
 use crate::report::check::Check;
 use crate::scene::environment::EnvironmentSource;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -37,6 +38,9 @@ pub enum Command {
     /// Is the image of a scene right? Paths rebuilt by every strategy, strategies against each other, known answers;
     /// exit status 1 if a check fails
     Check(CheckArgs),
+    /// How fast does the error fall? Scenes × integrators × heuristics × backends, over independent seeds, against a converged
+    /// reference; writes a report, tables and plots
+    Bench(BenchArgs),
 }
 
 #[derive(Args)]
@@ -54,7 +58,7 @@ pub struct RenderArgs {
     pub time: Option<f64>,
     /// Render with each of the seeds A, A + 1, … B − 1 (B is not among them); an .exr then also holds the sums and which samples
     /// they are of, for `merge`. Ctrl-C keeps the seeds that are done and the first samples of the one at work
-    #[arg(long, value_name = "A..B", value_parser = seeds, allow_hyphen_values = true, conflicts_with_all = ["seed", "time"])]
+    #[arg(long, value_name = "A..B", value_parser = seed_range, allow_hyphen_values = true, conflicts_with_all = ["seed", "time"])]
     pub seed_range: Option<Range<u32>>,
     /// Only this window of the picture, from its top left pixel; what lies in it does not change
     #[arg(long, value_name = "X,Y,W,H", value_parser = crop, allow_hyphen_values = true)]
@@ -142,6 +146,46 @@ pub struct CheckArgs {
     pub list: bool,
 }
 
+#[derive(Args)]
+pub struct BenchArgs {
+    /// Built-in scenes (see `scenes`), or .gltf or .glb files
+    #[arg(value_name = "SCENE", default_values = ["cornell", "cornell-spheres", "sphere-lights", "glass-caustic"])]
+    pub scenes: Vec<String>,
+    /// Which strategies: bidirectional, a path tracer's (s ≤ 1), a light tracer's (t ≤ 1)
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = integrator_parser(), default_value = "bdpt,pt,lt")]
+    pub integrators: Vec<Integrator>,
+    /// How strategies that can make the same path share it: power (β = 2), balance, max, cutoff (0.1), uniform
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = heuristic_parser(), default_value = "power")]
+    pub heuristics: Vec<HeuristicKind>,
+    /// Who renders: cpu, gpu; with a gpu, time is that of the clock
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = renderer_parser(), default_value = "cpu")]
+    pub backends: Vec<Backend>,
+    /// Independent renderings of each, 2 or more
+    #[arg(long, value_name = "N", value_parser = seeds, allow_hyphen_values = true, default_value = "10")]
+    pub seeds: u32,
+    /// Samples per pixel at equal samples
+    #[arg(long, value_name = "N", value_parser = positive, allow_hyphen_values = true, default_value = "16")]
+    pub spp: u32,
+    /// Seconds at equal time, for each rendering [default: what the first method takes for --spp]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_hyphen_values = true)]
+    pub time: Option<f64>,
+    /// Size of the pictures
+    #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true, default_value = "96x96")]
+    pub size: [u32; 2],
+    /// K: the most edges a path may have, 1 to 64
+    #[arg(long, value_name = "K", value_parser = edges, allow_hyphen_values = true, default_value = "6")]
+    pub max_edges: u32,
+    /// Pictures (.exr, .hdr) whose mean is right, for one scene; two or more that are independent tell their own noise
+    #[arg(long, value_name = "FILE,…", value_delimiter = ',', conflicts_with = "reference_spp")]
+    pub reference: Vec<PathBuf>,
+    /// Samples per pixel of the reference that is rendered [default: 64 times --spp]
+    #[arg(long, value_name = "N", value_parser = positive, allow_hyphen_values = true)]
+    pub reference_spp: Option<u32>,
+    /// Folder for report.md, .csv, .svg, and the pictures as .exr
+    #[arg(short, long, value_name = "DIR", default_value = "bench")]
+    pub output: PathBuf,
+}
+
 /// What a path is made with: the same for `render` and `inspect`, so that both speak of the same samples.
 #[derive(Args)]
 pub struct EstimatorArgs {
@@ -212,13 +256,17 @@ impl Selection {
 }
 
 fn heuristic_parser() -> impl TypedValueParser<Value = HeuristicKind> {
-    PossibleValuesParser::new(["power", "balance", "max", "cutoff", "uniform"]).map(|name| match name.as_str() {
-        "balance" => HeuristicKind::Balance,
-        "max" => HeuristicKind::Max,
-        "cutoff" => HeuristicKind::Cutoff,
-        "uniform" => HeuristicKind::Uniform,
-        _ => HeuristicKind::Power,
-    })
+    PossibleValuesParser::new(HeuristicKind::ALL.map(HeuristicKind::name))
+        .map(|name| HeuristicKind::ALL.into_iter().find(|kind| kind.name() == name).unwrap_or(HeuristicKind::Power))
+}
+
+fn integrator_parser() -> impl TypedValueParser<Value = Integrator> {
+    PossibleValuesParser::new(Integrator::ALL.map(Integrator::name))
+        .map(|name| Integrator::ALL.into_iter().find(|integrator| integrator.name() == name).unwrap_or(Integrator::Bdpt))
+}
+
+fn renderer_parser() -> impl TypedValueParser<Value = Backend> {
+    PossibleValuesParser::new(["cpu", "gpu"]).map(|name| if name == "gpu" { Backend::Gpu } else { Backend::Cpu })
 }
 
 fn backend_parser() -> impl TypedValueParser<Value = Backend> {

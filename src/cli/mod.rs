@@ -3,6 +3,7 @@
 //! Exit status 0, 1 if a check failed, or 2 after exactly one line on stderr: `error: ` what is wrong, where, and what to do.
 
 mod args;
+mod bench;
 mod check;
 mod inspect;
 mod job;
@@ -98,6 +99,7 @@ where
         (Some(Command::Merge(args)), None) => merge::run(&args).map(|()| ExitCode::SUCCESS),
         (Some(Command::Inspect(args)), None) => inspect::run(&args).map(|()| ExitCode::SUCCESS),
         (Some(Command::Check(args)), None) => check::run(&args),
+        (Some(Command::Bench(args)), None) => bench::run(&args).map(|()| ExitCode::SUCCESS),
     };
     outcome.unwrap_or_else(|failure| fail(&failure))
 }

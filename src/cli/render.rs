@@ -138,7 +138,8 @@ pub fn same_file(a: &Path, b: &Path) -> bool {
     !a.starts_with("/dev") && place(a) == place(b)
 }
 
-fn create_folder(folder: &Path) -> Result<(), Failure> {
+/// Creates a folder, if it is not there.
+pub fn create_folder(folder: &Path) -> Result<(), Failure> {
     fs::create_dir_all(folder).map_err(|error| Failure(format!("cannot create the folder '{}': {error}; choose another", folder.display())))
 }
 

@@ -17,8 +17,13 @@ pub fn positive(text: &str) -> Result<u32, String> {
 }
 
 /// `A..B`, seeds.
-pub fn seeds(text: &str) -> Result<Range<u32>, String> {
+pub fn seed_range(text: &str) -> Result<Range<u32>, String> {
     parse_range(text).ok_or("give first..end, such as 0..4 for the seeds 0, 1, 2, 3; the end is not among them".to_owned())
+}
+
+/// A number of seeds: with one there is no interval, and seeds from 2³¹ − 1 on are not measured.
+pub fn seeds(text: &str) -> Result<u32, String> {
+    text.parse().ok().filter(|n| (2..=1_000_000).contains(n)).ok_or("give a whole number from 2 to 1000000".to_owned())
 }
 
 /// K.
@@ -109,7 +114,7 @@ mod tests {
         assert_eq!(size("512x384"), Ok([512, 384]));
         assert_eq!(pixel("3,4"), Ok([3, 4]));
         assert_eq!(crop("1,2,3,4"), Ok(Crop { x: 1, y: 2, width: 3, height: 4 }));
-        assert_eq!((edges("64"), positive("1"), natural("0")), (Ok(64), Ok(1), Ok(0)));
+        assert_eq!((edges("64"), positive("1"), natural("0"), seeds("2")), (Ok(64), Ok(1), Ok(0), Ok(2)));
         assert_eq!((beta("0.5"), fraction("1"), stops("-2"), seconds("1e-3")), (Ok(0.5), Ok(1.0), Ok(-2.0), Ok(1e-3)));
         assert_eq!((lens_radius("0"), lens_radius("0.05"), degrees("-90")), (Ok(0.0), Ok(0.05), Ok(-90.0)));
         assert_eq!((focus_distance("1e-3"), focus_distance("inf")), (Ok(1e-3), Ok(f32::INFINITY)));
@@ -139,6 +144,7 @@ mod tests {
         }
         assert!(lens_radius("inf").is_err() && focus_distance("0").is_err() && degrees("NaN").is_err() && degrees("inf").is_err());
         assert!(stops("NaN").is_err() && stops("inf").is_err() && seconds("0").is_err() && positive("0").is_err());
+        assert!(seeds("1").is_err() && seeds("1000001").is_err() && seeds("two").is_err());
         assert!(edges("0").is_err() && edges("65").is_err() && edges("100000").is_err());
         assert!(picture_path("a.jpg").is_err() && picture_path("exr").is_err());
     }

@@ -241,6 +241,21 @@ impl Session {
         matches!(self.worker, Worker::Gpu(_))
     }
 
+    /// Did the GPU give up although it was to render?
+    pub fn has_fallen_back(&self) -> bool {
+        self.fallback.is_some()
+    }
+
+    /// Is it decided for good who renders, with which kernels?
+    pub fn is_settled(&self) -> bool {
+        self.preparing.is_none()
+    }
+
+    /// Time spent rendering so far: by the clock, and of the processor, all threads.
+    pub fn spent(&self) -> (Duration, Duration) {
+        (self.elapsed, self.cpu)
+    }
+
     /// What is rendered.
     pub fn job(&self) -> &Job {
         &self.job

@@ -29,7 +29,7 @@ impl Job {
         say("estimator", RECORD_VERSION.to_string());
         say("max-edges", settings.max_edges.to_string());
         let heuristic = &settings.heuristic;
-        say("heuristic", heuristic_name(heuristic.kind).to_owned());
+        say("heuristic", heuristic.kind.name().to_owned());
         match heuristic.kind {
             HeuristicKind::Power => say("beta", format!("{:?}", heuristic.beta)),
             HeuristicKind::Cutoff => say("cutoff", format!("{:?}", heuristic.cutoff)),
@@ -47,16 +47,6 @@ impl Job {
         say("strategies", family.map_or_else(|| listed(&own), |_| "all".to_owned()));
         say("shown", if shown == own { "all".to_owned() } else { listed(shown) });
         facts
-    }
-}
-
-fn heuristic_name(kind: HeuristicKind) -> &'static str {
-    match kind {
-        HeuristicKind::Power => "power",
-        HeuristicKind::Balance => "balance",
-        HeuristicKind::Max => "max",
-        HeuristicKind::Cutoff => "cutoff",
-        HeuristicKind::Uniform => "uniform",
     }
 }
 

@@ -1,9 +1,9 @@
 //! What there is to take away of a sample: the record as JSON, its tables as CSV, its diagram as SVG. The command line and the
 //! window write the very same bytes.
 
-mod csv;
+pub(super) mod csv;
 mod svg;
-mod svg_parts;
+pub(super) mod svg_parts;
 
 pub use csv::{strategies_csv, vertices_csv};
 pub use svg::diagram_svg;

@@ -1,5 +1,7 @@
-//! What a rendering is told as: the labelled sheet of strategy images, the names it goes by, and whether it is right.
+//! What a rendering is told as: the labelled sheet of strategy images, the names it goes by, whether it is right, and how fast.
 
+#[cfg(not(target_arch = "wasm32"))]
+pub mod bench;
 pub mod canvas;
 pub mod check;
 pub mod contact_sheet;

@@ -11,14 +11,16 @@ const RADIANCE: &str = "W m^-2 sr^-1";
 
 /// A table under way.
 #[derive(Default)]
-struct Table {
-    text: String,
+pub struct Table {
+    /// The lines so far.
+    pub text: String,
     /// Does the line have a field already?
     begun: bool,
 }
 
 impl Table {
-    fn field(&mut self, value: impl Display) {
+    /// Adds a field.
+    pub fn field(&mut self, value: impl Display) {
         if self.begun {
             self.text.push(',');
         }
@@ -31,7 +33,8 @@ impl Table {
         }
     }
 
-    fn maybe(&mut self, value: Option<impl Display>) {
+    /// Adds a field, empty where there is no value.
+    pub fn maybe(&mut self, value: Option<impl Display>) {
         match value {
             Some(value) => self.field(value),
             None => self.field(""),
@@ -42,7 +45,8 @@ impl Table {
         (0..3).for_each(|i| self.maybe(values.map(|v| v[i])));
     }
 
-    fn end(&mut self) {
+    /// Ends the line.
+    pub fn end(&mut self) {
         self.text += "\r\n";
         self.begun = false;
     }
