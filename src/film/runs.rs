@@ -150,7 +150,7 @@ mod tests {
             }
             assert_eq!(all.to_string(), "0..6:8 6..7:3 9..10:8");
             assert_eq!((all.seeds().as_str(), all.samples(), all.first()), ("0..7, 9..10", 59, Some(0)));
-            assert_eq!((all.gaps(), all.even()), (vec![7..9], false));
+            assert!(all.gaps().len() == 1 && all.gaps()[0] == (7..9) && !all.even());
             assert_eq!(runs(&all.to_string()), all);
         }
         assert!(runs("0..6:8 9..10:8").even());

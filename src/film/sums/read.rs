@@ -89,7 +89,7 @@ fn about_of(headers: &[Header]) -> Result<About, Flaw> {
     }
     let names = LAYERS.iter().flat_map(|layer| ["R", "G", "B"].map(|letter| format!("{layer}.{letter}")));
     for name in names {
-        let channel = header.channels.list.iter().find(|channel| channel.name == exr::Text::from(name.as_str()));
+        let channel = header.channels.list.iter().find(|channel| channel.name == *name.as_str());
         if !channel.is_some_and(|channel| channel.sample_type == exr::SampleType::F32 && channel.sampling == exr::Vec2(1, 1)) {
             return Err(Flaw::Other(format!("is not as it was written: {name} is missing, or no longer 32-bit floats; render it again")));
         }
