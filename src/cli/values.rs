@@ -118,7 +118,7 @@ mod tests {
         assert_eq!((beta("0.5"), fraction("1"), stops("-2"), seconds("1e-3")), (Ok(0.5), Ok(1.0), Ok(-2.0), Ok(1e-3)));
         assert_eq!((lens_radius("0"), lens_radius("0.05"), degrees("-90")), (Ok(0.0), Ok(0.05), Ok(-90.0)));
         assert_eq!((focus_distance("1e-3"), focus_distance("inf")), (Ok(1e-3), Ok(f32::INFINITY)));
-        assert_eq!((seeds("0..4"), seeds("4294967294..4294967295")), (Ok(0..4), Ok(u32::MAX - 1..u32::MAX)));
+        assert_eq!((seed_range("0..4"), seed_range("4294967294..4294967295")), (Ok(0..4), Ok(u32::MAX - 1..u32::MAX)));
         assert!(picture_path("a.b.EXR").is_ok() && picture_path("x/y.png").is_ok());
     }
 
@@ -131,7 +131,7 @@ mod tests {
             assert!(pixel(text).is_err(), "{text}");
         }
         for text in ["", "4", "..", "0..", "..4", "4..4", "5..4", "0..4294967296", "-1..4", "0...4", "0..=4", "0-4", "0.. 4"] {
-            assert!(seeds(text).is_err(), "{text}");
+            assert!(seed_range(text).is_err(), "{text}");
         }
         for text in ["", "1,2,3", "1,2,0,4", "1,2,3,0", "1,2,3,4,5", "-1,2,3,4"] {
             assert!(crop(text).is_err(), "{text}");
