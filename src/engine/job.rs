@@ -153,7 +153,7 @@ impl Job {
         if !(0.0..=1.0).contains(&h.cutoff) {
             return fail(format!("cutoff {}: must be 0 to 1", h.cutoff));
         }
-        let bytes = Film::bytes(self.size, self.plan().layers);
+        let bytes = self.film_bytes();
         if bytes > FILM_BUDGET {
             let (need, have) = (bytes >> 20, FILM_BUDGET >> 20);
             return fail(format!(
@@ -161,6 +161,11 @@ impl Job {
             ));
         }
         Ok(())
+    }
+
+    /// What its film takes, bytes.
+    pub fn film_bytes(&self) -> u128 {
+        Film::bytes(self.size, self.plan().layers)
     }
 
     pub(super) fn plan(&self) -> Plan {

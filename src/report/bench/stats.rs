@@ -96,6 +96,12 @@ impl Interval {
 
 /// The slope of ln y over ln x, by least squares; `None` of fewer than two different x, or if a value is not above 0.
 pub fn log_slope(points: &[[f64; 2]]) -> Option<f64> {
+    log_fit(points).map(|slope| slope.mean)
+}
+
+/// The same with its 95 % interval, from how far the points lie from the line (Student's t, n − 2 degrees of freedom); there is
+/// none of two points. For points that are measured each by itself.
+pub fn log_fit(points: &[[f64; 2]]) -> Option<Interval> {
     let logs: Vec<[f64; 2]> = points.iter().map(|point| point.map(f64::ln)).collect();
     if logs.iter().flatten().any(|x| !x.is_finite()) {
         return None;
@@ -104,7 +110,10 @@ pub fn log_slope(points: &[[f64; 2]]) -> Option<f64> {
     let [mean_x, mean_y] = [0, 1].map(|axis| logs.iter().map(|log| log[axis]).sum::<f64>() / n);
     let over: f64 = logs.iter().map(|[x, y]| (x - mean_x) * (y - mean_y)).sum();
     let under: f64 = logs.iter().map(|[x, _]| (x - mean_x).powi(2)).sum();
-    (under > 0.0).then(|| over / under)
+    let mean = (under > 0.0).then(|| over / under)?;
+    let left: f64 = logs.iter().map(|[x, y]| (y - mean_y - mean * (x - mean_x)).powi(2)).sum();
+    let student = (n > 2.0).then(|| StudentsT::new(0.0, 1.0, n - 2.0).ok()).flatten();
+    Some(Interval { mean, half: student.map(|t| t.inverse_cdf(0.975) * (left / (n - 2.0) / under).sqrt()) })
 }
 
 #[cfg(test)]
@@ -219,5 +228,22 @@ mod tests {
         let flat: Vec<_> = points(-1.0).into_iter().map(|[x, y]| [x, y + 0.1]).collect();
         assert!(log_slope(&flat).unwrap() > -0.85);
         assert_eq!((log_slope(&[[1.0, 1.0]]), log_slope(&[[1.0, 0.0], [2.0, 1.0]])), (None, None));
+    }
+    /// At the level 10⁻⁴, as above; the control is half the interval.
+    #[test]
+    fn a_fit_finds_a_known_exponent_and_its_interval_covers_it() {
+        let (cases, mut covered, mut control) = (5000, 0, 0);
+        for case in 0..cases {
+            let noisy = |i: u32| [10f64.powi(i as i32), 7.0 * 10f64.powf(1.5 * f64::from(i)) * (0.2 * normal(i, case, 1)).exp()];
+            let Interval { mean, half: Some(half) } = log_fit(&(0..6).map(noisy).collect::<Vec<_>>()).unwrap() else {
+                panic!("six points")
+            };
+            covered += usize::from((mean - 1.5).abs() <= half);
+            control += usize::from((mean - 1.5).abs() <= 0.5 * half);
+        }
+        let limit = 3.9 * (0.95f64 * 0.05 / cases as f64).sqrt();
+        let [covered, control] = [covered, control].map(|count| (count as f64 / cases as f64 - 0.95).abs());
+        assert!(covered < limit && control > limit, "{covered} {control} {limit}");
+        assert_eq!(log_fit(&[[1.0, 2.0], [2.0, 4.0]]), Some(Interval { mean: 1.0, half: None }));
     }
 }
