@@ -77,6 +77,8 @@ mod space;
 mod space_looks;
 #[path = "ui/study.rs"]
 mod study;
+#[path = "ui/suggest.rs"]
+mod suggest;
 #[path = "ui/summary.rs"]
 mod summary;
 #[path = "ui/surfaces.rs"]

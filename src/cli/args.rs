@@ -38,6 +38,8 @@ pub enum Command {
     /// Is the image of a scene right? Paths rebuilt by every strategy, strategies against each other, known answers;
     /// exit status 1 if a check fails
     Check(CheckArgs),
+    /// Which strategies does a scene need? A short pilot run judges what others would do: variance, cost, efficiency
+    Suggest(SuggestArgs),
     /// How fast does the error fall? Scenes × integrators × heuristics × backends, over independent seeds, against a converged
     /// reference; writes a report, tables and plots
     Bench(BenchArgs),
@@ -102,6 +104,12 @@ pub struct LookArgs {
     /// Tone curve of .png files
     #[arg(long, value_name = "NAME", value_parser = tonemap_parser(), default_value = "srgb")]
     pub tonemap: ToneMap,
+}
+
+#[derive(Args)]
+pub struct SuggestArgs {
+    #[command(flatten)]
+    pub estimator: EstimatorArgs,
 }
 
 #[derive(Args)]
@@ -227,7 +235,7 @@ pub struct EstimatorArgs {
     /// Threshold of the cutoff heuristic, 0 to 1
     #[arg(long, value_name = "A", value_parser = fraction, allow_hyphen_values = true, default_value = "0.1")]
     pub cutoff: f32,
-    /// `all`, or a list such as s0t2,s1t1
+    /// `all`, `suggested` (see the command `suggest`), or a list such as s0t2,s1t1
     #[arg(long, value_name = "LIST", value_parser = Selection::parse, default_value = "all")]
     pub strategies: Selection,
     /// Bidirectional, or only the strategies of a path tracer (s ≤ 1) or a light tracer (t ≤ 1)
@@ -242,6 +250,8 @@ pub struct EstimatorArgs {
 #[derive(Clone, Debug)]
 pub enum Selection {
     All,
+    /// Those that a pilot run suggests.
+    Suggested,
     Listed(Vec<Strategy>),
 }
 
@@ -250,7 +260,12 @@ impl Selection {
         if text == "all" {
             return Ok(Self::All);
         }
-        let parse = |name: &str| Strategy::parse(name).ok_or(format!("'{name}' is no strategy; write `all`, or a list such as s0t2,s1t1"));
+        if text == "suggested" {
+            return Ok(Self::Suggested);
+        }
+        let parse = |name: &str| {
+            Strategy::parse(name).ok_or(format!("'{name}' is no strategy; write `all`, `suggested`, or a list such as s0t2,s1t1"))
+        };
         text.split(',').map(parse).collect::<Result<_, _>>().map(Self::Listed)
     }
 }

@@ -49,6 +49,7 @@ mod space;
 pub mod state;
 mod status_bar;
 mod study;
+mod suggest;
 mod summary;
 pub mod text;
 mod theme;

@@ -13,6 +13,7 @@ pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};
 pub use super::room::Maximised;
 pub use super::space::SpaceState;
 pub use super::study::StudyState;
+pub use super::suggest::SuggestState;
 use super::text::{Lang, Text, Words};
 pub use super::touch::Fingers;
 pub use super::tour::Before;
@@ -183,6 +184,8 @@ pub struct State {
     pub study: StudyState,
     /// The checks.
     pub checks: ChecksState,
+    /// The suggestion of strategies.
+    pub suggest: SuggestState,
     /// Saving.
     pub export: ExportState,
     /// Files that come in without a path.
@@ -241,6 +244,7 @@ impl State {
             edit: EditState::default(),
             study: StudyState::default(),
             checks: ChecksState::default(),
+            suggest: SuggestState::default(),
             export: ExportState::default(),
             files: FilesState::default(),
             tour: None,

@@ -85,10 +85,12 @@ impl Quads {
     /// any hit (`ANY`) is as good as another.
     #[inline(always)]
     pub fn traverse<const ANY: bool>(&self, ray: &PreparedRay, t_max: f32, visit: impl FnMut(&Hit) -> Visit) -> bool {
-        match self.waiting {
-            0..=SMALL_STACK => self.traverse_with::<{ SMALL_STACK + 1 }, ANY>(ray, t_max, visit),
-            0..=MEDIUM_STACK => self.traverse_with::<{ MEDIUM_STACK + 1 }, ANY>(ray, t_max, visit),
-            _ => self.traverse_with::<{ LARGE_STACK + 1 }, ANY>(ray, t_max, visit),
+        if self.waiting <= SMALL_STACK {
+            self.traverse_with::<{ SMALL_STACK + 1 }, ANY>(ray, t_max, visit)
+        } else if self.waiting <= MEDIUM_STACK {
+            self.traverse_with::<{ MEDIUM_STACK + 1 }, ANY>(ray, t_max, visit)
+        } else {
+            self.traverse_with::<{ LARGE_STACK + 1 }, ANY>(ray, t_max, visit)
         }
     }
 

@@ -51,6 +51,7 @@ impl Link {
             space,
             edit,
             checks,
+            suggest: _,
             export: _,
             files: _,
             tour: _,
