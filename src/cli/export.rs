@@ -46,11 +46,7 @@ pub fn run(args: &ExportArgs) -> Result<(), Failure> {
     say_notes(&job.scene);
     notes.iter().for_each(|note| eprintln!("note: {note}"));
     let bytes: usize = files.iter().map(|(_, bytes)| bytes.len()).sum();
-    print(&format!(
-        "wrote {} and {} more files, {:.1} MB\n",
-        args.output.join("scene.xml").display(),
-        files.len() - 1,
-        bytes as f64 * 1e-6
-    ));
+    let size = if bytes < 1_000_000 { format!("{} kB", bytes.div_ceil(1000)) } else { format!("{:.1} MB", bytes as f64 * 1e-6) };
+    print(&format!("wrote {} and {} more files, {size}\n", args.output.join("scene.xml").display(), files.len() - 1));
     Ok(())
 }
