@@ -1,5 +1,6 @@
 //! The words of the command line. Whatever can be judged without the scene is judged here, value by value.
 
+use super::export::ExportArgs;
 use super::values::*;
 use crate::bdpt::{HeuristicKind, Strategy};
 use crate::engine::{Backend, Crop};
@@ -43,6 +44,8 @@ pub enum Command {
     /// How fast does the error fall? Scenes × integrators × heuristics × backends, over independent seeds, against a converged
     /// reference; writes a report, tables and plots
     Bench(BenchArgs),
+    /// Write a scene for another renderer: the same view, the same lights, the same materials where it has them
+    Export(ExportArgs),
 }
 
 #[derive(Args)]
@@ -199,6 +202,34 @@ pub struct BenchArgs {
 pub struct EstimatorArgs {
     /// A built-in scene (see `scenes`), or a .gltf or .glb file
     pub scene: String,
+    #[command(flatten)]
+    pub view: ViewArgs,
+    /// Seed of the random numbers
+    #[arg(long, value_name = "N", value_parser = natural, allow_hyphen_values = true, default_value = "0")]
+    pub seed: u32,
+    /// How strategies that can make the same path share it
+    #[arg(long, value_name = "NAME", value_parser = heuristic_parser(), default_value = "power")]
+    pub heuristic: HeuristicKind,
+    /// Exponent of the power heuristic
+    #[arg(long, value_name = "B", value_parser = beta, allow_hyphen_values = true, default_value = "2")]
+    pub beta: f32,
+    /// Threshold of the cutoff heuristic, 0 to 1
+    #[arg(long, value_name = "A", value_parser = fraction, allow_hyphen_values = true, default_value = "0.1")]
+    pub cutoff: f32,
+    /// `all`, `suggested` (see the command `suggest`), or a list such as s0t2,s1t1
+    #[arg(long, value_name = "LIST", value_parser = Selection::parse, default_value = "all")]
+    pub strategies: Selection,
+    /// Bidirectional, or only the strategies of a path tracer (s ≤ 1) or a light tracer (t ≤ 1)
+    #[arg(long, value_name = "NAME", value_parser = ["bdpt", "pt", "lt"], default_value = "bdpt")]
+    pub integrator: String,
+    /// Russian roulette
+    #[arg(long, value_name = "on|off", action = ArgAction::Set, value_parser = PossibleValuesParser::new(["on", "off"]).map(|word| word == "on"), default_value = "on")]
+    pub roulette: bool,
+}
+
+/// What of a scene is seen, and how.
+#[derive(Args)]
+pub struct ViewArgs {
     /// Size of the full picture
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true, default_value = "512x512")]
     pub size: [u32; 2],
@@ -223,27 +254,6 @@ pub struct EstimatorArgs {
     /// K: the most edges a path may have, 1 to 64
     #[arg(long, value_name = "K", value_parser = edges, allow_hyphen_values = true, default_value = "6")]
     pub max_edges: u32,
-    /// Seed of the random numbers
-    #[arg(long, value_name = "N", value_parser = natural, allow_hyphen_values = true, default_value = "0")]
-    pub seed: u32,
-    /// How strategies that can make the same path share it
-    #[arg(long, value_name = "NAME", value_parser = heuristic_parser(), default_value = "power")]
-    pub heuristic: HeuristicKind,
-    /// Exponent of the power heuristic
-    #[arg(long, value_name = "B", value_parser = beta, allow_hyphen_values = true, default_value = "2")]
-    pub beta: f32,
-    /// Threshold of the cutoff heuristic, 0 to 1
-    #[arg(long, value_name = "A", value_parser = fraction, allow_hyphen_values = true, default_value = "0.1")]
-    pub cutoff: f32,
-    /// `all`, `suggested` (see the command `suggest`), or a list such as s0t2,s1t1
-    #[arg(long, value_name = "LIST", value_parser = Selection::parse, default_value = "all")]
-    pub strategies: Selection,
-    /// Bidirectional, or only the strategies of a path tracer (s ≤ 1) or a light tracer (t ≤ 1)
-    #[arg(long, value_name = "NAME", value_parser = ["bdpt", "pt", "lt"], default_value = "bdpt")]
-    pub integrator: String,
-    /// Russian roulette
-    #[arg(long, value_name = "on|off", action = ArgAction::Set, value_parser = PossibleValuesParser::new(["on", "off"]).map(|word| word == "on"), default_value = "on")]
-    pub roulette: bool,
 }
 
 /// The value of `--strategies`.

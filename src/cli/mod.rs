@@ -5,6 +5,7 @@
 mod args;
 mod bench;
 mod check;
+mod export;
 mod inspect;
 mod job;
 mod merge;
@@ -102,6 +103,7 @@ where
         (Some(Command::Check(args)), None) => check::run(&args),
         (Some(Command::Suggest(args)), None) => suggest::run(&args).map(|()| ExitCode::SUCCESS),
         (Some(Command::Bench(args)), None) => bench::run(&args).map(|()| ExitCode::SUCCESS),
+        (Some(Command::Export(args)), None) => export::run(&args).map(|()| ExitCode::SUCCESS),
     };
     outcome.unwrap_or_else(|failure| fail(&failure))
 }

@@ -6,6 +6,8 @@ pub mod canvas;
 pub mod check;
 pub mod contact_sheet;
 pub mod export;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod mitsuba;
 
 pub use canvas::Canvas;
 pub use contact_sheet::{ContactSheet, Heading};
