@@ -14,6 +14,7 @@ use super::strategy::{MAX_VERTICES, Strategy};
 use crate::film::{Film, Layers, Means, Rect, Row, SplatBatch, Splats};
 use crate::math::Vec3;
 use crate::rng::{BLOCK_SPLAT, SampleId};
+use crate::scene::light::{AREA, Light};
 use crate::scene::{Matte, Opaque, Shape};
 use rayon::prelude::*;
 
@@ -142,13 +143,15 @@ impl Plan {
 }
 
 /// The quantum of a film's splats, radiance: fine beside what a light path typically adds to a pixel, Φ/(A_film R²), and coarse
-/// enough that a splat of a small lens hit by chance, Φ/(A_film A_lens), still fits.
+/// enough that a splat of a small lens hit by chance, Φ/(A_film A_lens), still fits, and the brightest lamp in a wide scene, 2²⁰ times.
 pub fn splat_quantum(context: &Context) -> f32 {
     let (view, power) = (context.view, context.scene.lights.power.max_element());
     let radius = context.scene.sphere.radius;
     let typical = power / (view.film_area() * radius * radius) * (-30.0f32).exp2();
     let lens = if view.has_lens() { power * view.pdf_lens_area() / view.film_area() * (-56.0f32).exp2() } else { 0.0 };
-    let quantum = typical.max(lens);
+    let radiance = |light: &Light| if light.kind == AREA { light.radiance.max_element() } else { 0.0 };
+    let lamp = context.scene.lights.list.iter().map(radiance).fold(0.0, f32::max) * (-43.0f32).exp2();
+    let quantum = typical.max(lens).max(lamp);
     if quantum.is_finite() && quantum > 1e-36 { quantum } else { (-30.0f32).exp2() }
 }
 
