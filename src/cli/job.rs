@@ -33,6 +33,7 @@ pub fn prepare(args: &EstimatorArgs, hide: bool) -> Result<Prepared, Failure> {
     let settings = Settings {
         max_edges: args.max_edges,
         seed: args.seed,
+        sampler: args.sampler,
         heuristic: Heuristic { kind: args.heuristic, beta: args.beta, cutoff: args.cutoff },
         roulette: args.roulette,
         strategies: taking_part,
