@@ -161,7 +161,7 @@ mod tests {
                 let plan = Plan::new(&settings, Existence::of(&scene, view.has_lens()), false, false);
                 let mut sample = Sample::default();
                 for i in 0..2000 {
-                    let id = SampleId { x: i % 64, y: i / 64, sample: 0, seed: 11 };
+                    let id = SampleId { x: i % 64, y: i / 64, sample: 0, seed: 11, ..SampleId::default() };
                     sample.trace(&context, id, plan.light_vertices(), plan.eye_vertices());
                     for strategy in plan.strategies() {
                         let (light, eye) = (sample.light.vertices.len() as u32, sample.eye.vertices.len() as u32);

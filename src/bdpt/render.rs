@@ -196,7 +196,7 @@ struct Target<'a, 'f> {
 impl Target<'_, '_> {
     fn render_row<F: Shape>(&mut self, context: &Context<F>, plan: &Plan, sample: &mut Sample, row: &mut Row) {
         for x in 0..context.view.size[0] {
-            let id = SampleId { x, y: row.y, sample: self.pass, seed: context.settings.seed };
+            let id = context.settings.sample([x, row.y], self.pass);
             let eye_vertices = if self.crop.contains([x, row.y]) { plan.eye_vertices } else { 0 };
             sample.trace(context, id, plan.light_vertices, eye_vertices);
             let (n_light, n_eye) = (sample.light.vertices.len() as u32, sample.eye.vertices.len());
@@ -243,7 +243,7 @@ impl Target<'_, '_> {
                 }
             }
         } else if self.crop.contains(contribution.pixel) {
-            let [u0, u1, u2, _] = id.numbers(BLOCK_SPLAT + strategy.s);
+            let [u0, u1, u2, _] = id.hashed(BLOCK_SPLAT + strategy.s);
             for (layer, value) in values {
                 if let Some(layer) = layer {
                     self.splats.add(self.batch, contribution.pixel, layer, value, [u0, u1, u2]);

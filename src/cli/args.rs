@@ -7,6 +7,7 @@ use crate::engine::{Backend, Crop};
 use crate::film::tonemap::ToneMap;
 use crate::report::bench::Integrator;
 use crate::report::check::Check;
+use crate::rng::Sampler;
 use crate::scene::environment::EnvironmentSource;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgAction, Args, Parser, Subcommand};
@@ -41,7 +42,7 @@ pub enum Command {
     Check(CheckArgs),
     /// Which strategies does a scene need? A short pilot run judges what others would do: variance, cost, efficiency
     Suggest(SuggestArgs),
-    /// How fast does the error fall? Scenes × integrators × heuristics × backends, over independent seeds, against a converged
+    /// How fast does the error fall? Scenes × integrators × heuristics × samplers × backends, over independent seeds, against a converged
     /// reference; writes a report, tables and plots
     Bench(BenchArgs),
     /// Write a scene for another renderer: the same view, the same lights, the same materials where it has them
@@ -168,6 +169,9 @@ pub struct BenchArgs {
     /// How strategies that can make the same path share it: power (β = 2), balance, max, cutoff (0.1), uniform
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = heuristic_parser(), default_value = "power")]
     pub heuristics: Vec<HeuristicKind>,
+    /// How the random numbers of a pixel's samples go together: independent (hash), evenly spread (sobol)
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = sampler_parser(), default_value = "hash")]
+    pub samplers: Vec<Sampler>,
     /// Who renders: cpu, gpu; with a gpu, time is that of the clock
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = renderer_parser(), default_value = "cpu")]
     pub backends: Vec<Backend>,
@@ -207,6 +211,10 @@ pub struct EstimatorArgs {
     /// Seed of the random numbers
     #[arg(long, value_name = "N", value_parser = natural, allow_hyphen_values = true, default_value = "0")]
     pub seed: u32,
+    /// How the random numbers of a pixel's samples go together: independent (hash), or evenly spread (sobol: less noise, and how
+    /// samples differ no longer tells the error). Seeds are independent either way
+    #[arg(long, value_name = "NAME", value_parser = sampler_parser(), default_value = "hash")]
+    pub sampler: Sampler,
     /// How strategies that can make the same path share it
     #[arg(long, value_name = "NAME", value_parser = heuristic_parser(), default_value = "power")]
     pub heuristic: HeuristicKind,
@@ -283,6 +291,11 @@ impl Selection {
 fn heuristic_parser() -> impl TypedValueParser<Value = HeuristicKind> {
     PossibleValuesParser::new(HeuristicKind::ALL.map(HeuristicKind::name))
         .map(|name| HeuristicKind::ALL.into_iter().find(|kind| kind.name() == name).unwrap_or(HeuristicKind::Power))
+}
+
+fn sampler_parser() -> impl TypedValueParser<Value = Sampler> {
+    PossibleValuesParser::new(Sampler::ALL.map(Sampler::name))
+        .map(|name| Sampler::ALL.into_iter().find(|sampler| sampler.name() == name).unwrap_or_default())
 }
 
 fn integrator_parser() -> impl TypedValueParser<Value = Integrator> {

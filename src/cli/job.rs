@@ -22,6 +22,7 @@ pub fn prepare(args: &EstimatorArgs, hide: bool) -> Result<Prepared, Failure> {
     let existence = job.existence();
     let mut settings = Settings {
         seed: args.seed,
+        sampler: args.sampler,
         heuristic: Heuristic { kind: args.heuristic, beta: args.beta, cutoff: args.cutoff },
         roulette: args.roulette,
         ..job.settings

@@ -1,6 +1,6 @@
 //! How sure the image is: a 95 % interval around every pixel's mean, from how whole groups of passes differ.
 //!
-//! Passes are independent and all alike, so the mean X_b of a batch of m_b passes has the variance σ²/m_b, and
+//! Passes are independent and all alike ([`crate::rng::Sampler::is_independent`]; else there are no intervals), so the mean X_b of a batch of m_b passes has the variance σ²/m_b, and
 //!
 //! ```text
 //! W = Σ m_b,   X̄ = Σ m_b X_b / W          σ² ≈ Σ m_b (X_b − X̄)² / (B − 1),   unbiased whatever the m_b
@@ -135,7 +135,7 @@ mod tests {
         let (mut sums, mut means) = (vec![0.0f64; trials], vec![Vec3::ZERO; trials]);
         for pass in 0..passes {
             for (trial, (sum, mean)) in sums.iter_mut().zip(&mut means).enumerate() {
-                let id = SampleId { x: trial as u32 % 256, y: trial as u32 / 256, sample: pass, seed: 5 };
+                let id = SampleId { x: trial as u32 % 256, y: trial as u32 / 256, sample: pass, seed: 5, ..SampleId::default() };
                 *sum += (0..3).flat_map(|block| id.numbers(block)).map(f64::from).sum::<f64>();
                 *mean = Vec3::splat((*sum / f64::from(pass + 1)) as f32);
             }

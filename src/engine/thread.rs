@@ -283,8 +283,11 @@ impl Worker {
         }
     }
 
-    /// Between two passes, a batch may end.
+    /// Between two passes, a batch may end. Where passes are not independent, how they differ is no measure of the error.
     async fn end_batch(&mut self) {
+        if !self.session.job().settings.sampler.is_independent() {
+            return;
+        }
         if self.batches.hidden() != self.hidden {
             (self.batches, self.intervals) = (Batches::new(self.hidden), None);
         }

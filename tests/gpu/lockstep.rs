@@ -237,7 +237,7 @@ fn work(scene: Arc<Scene>) -> Work {
 fn all_steps(context: &Context) -> Vec<Stepped> {
     let mut list = Vec::new();
     for i in 0..SIDE * SIDE {
-        let id = SampleId { x: i % SIDE, y: i / SIDE, sample: 2, seed: 11 };
+        let id = context.settings.sample([i % SIDE, i / SIDE], 2);
         steps(context, Importance, id, 8, &mut list);
         steps(context, Radiance, id, 9, &mut list);
     }

@@ -116,7 +116,7 @@ impl Pilot<'_> {
         let mut own = vec![0.0; count];
         for pass in first..first + PASSES {
             own.fill(0.0);
-            let id = SampleId { x, y, sample: pass, seed: SEED };
+            let id = SampleId { x, y, sample: pass, seed: SEED, ..SampleId::default() };
             sample.trace(&self.context, id, self.plan.light_vertices(), self.plan.eye_vertices());
             self.count_walks(sample, sums);
             let lengths = [sample.light.vertices.len() as u32, sample.eye.vertices.len() as u32];

@@ -7,7 +7,7 @@ use crate::scene::{NONE, builtin};
 
 /// Numbers in [0, 1)⁴, the i-th four of a test's own stream.
 fn random(stream: u32, i: u32) -> [f32; 4] {
-    SampleId { x: 0, y: 0, sample: i, seed: stream }.numbers(0)
+    SampleId { x: 0, y: 0, sample: i, seed: stream, ..SampleId::default() }.numbers(0)
 }
 
 /// A point of the cube [−1, 1]³.

@@ -2,7 +2,7 @@
 
 use super::sets::Strategies;
 use super::words::{
-    BETA, Between, CUTOFF, Codec, Flags, HEURISTICS, Maybe, Name, OneOf, OneStrategy, Read, SWITCH, Several, WholeHeuristic,
+    BETA, Between, CUTOFF, Codec, Flags, HEURISTICS, Maybe, Name, OneOf, OneStrategy, Read, SAMPLERS, SWITCH, Several, WholeHeuristic,
 };
 use super::{CompareMode, Link, Shared};
 use crate::bdpt::MAX_EDGES;
@@ -78,6 +78,7 @@ pub const TABLE: &[Piece] = &[
     piece!("size", Several(Between(1, MOST_SIDE), 'x'), size),
     piece!("k", Between(1, MAX_EDGES as u32), settings.max_edges),
     piece!("seed", Between(0, u32::MAX), settings.seed),
+    piece!("sampler", SAMPLERS, settings.sampler),
     piece!("weights", HEURISTICS, settings.heuristic.kind),
     piece!("beta", BETA, settings.heuristic.beta),
     piece!("cutoff", CUTOFF, settings.heuristic.cutoff),
