@@ -4,6 +4,7 @@ pub use super::checks::{Ask, ChecksState};
 pub use super::compare::{CompareState, Mode as CompareMode, Source};
 pub use super::drawn::{Drawn, Draws, Why, Wish};
 pub use super::edit::EditState;
+pub use super::error::ErrorState;
 pub use super::export::{ExportState, What};
 pub use super::files::{FilesState, Given, Purpose};
 pub use super::image_view::ViewState;
@@ -183,6 +184,8 @@ pub struct State {
     pub study: StudyState,
     /// The checks.
     pub checks: ChecksState,
+    /// Error against a reference.
+    pub error: ErrorState,
     /// Saving.
     pub export: ExportState,
     /// Files that come in without a path.
@@ -241,6 +244,7 @@ impl State {
             edit: EditState::default(),
             study: StudyState::default(),
             checks: ChecksState::default(),
+            error: ErrorState::default(),
             export: ExportState::default(),
             files: FilesState::default(),
             tour: None,
