@@ -155,7 +155,7 @@ fn run(judge: &mut Judge, image: &mut Session, passes: u32) {
     block_on(judge.look(image, true));
     // Who has less still goes on.
     for _ in 0..2000 {
-        drop(block_on(judge.turn(image)));
+        block_on(judge.turn(image));
     }
     while judge.measure_again() {}
     judge.show(image, true);

@@ -76,7 +76,10 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     let curves = curves.as_deref().filter(|_| state.compare.reference.is_some());
     ui.horizontal_wrapped(|ui| reference(ui, state, live));
     about(ui, state, live, curves);
-    ui.horizontal_wrapped(|ui| views(ui, state));
+    if let Some(reference) = state.compare.reference {
+        ui.horizontal_wrapped(|ui| views(ui, state, reference));
+        ui.add(Label::new(RichText::new(state.say(ErrorText::Peek)).small().weak()).wrap());
+    }
     ui.separator();
     ui.horizontal_wrapped(|ui| measures(ui, state));
     let Some(curves) = curves else { return };
@@ -140,8 +143,7 @@ fn about(ui: &mut Ui, state: &State, live: &Live, curves: Option<&Curves>) {
 }
 
 /// The image against the reference.
-fn views(ui: &mut Ui, state: &mut State) {
-    let Some(reference) = state.compare.reference else { return };
+fn views(ui: &mut Ui, state: &mut State, reference: Source) {
     for (metric, text, help) in [
         (Metric::Signed, ErrorText::ViewSigned, ErrorText::HelpViewSigned),
         (Metric::RelativeSquared, ErrorText::ViewRelative, ErrorText::HelpViewRelative),
@@ -155,7 +157,6 @@ fn views(ui: &mut Ui, state: &mut State) {
             (compare.mode, compare.metric) = (if on { compare::Mode::Flip } else { compare::Mode::Difference }, metric);
         }
     }
-    ui.label(RichText::new(state.say(ErrorText::Peek)).small().weak());
 }
 
 /// What is measured, and at what budget.
@@ -176,6 +177,9 @@ fn measures(ui: &mut Ui, state: &mut State) {
     ];
     for (flag, words, help) in rows {
         ui.checkbox(flag, words).on_hover_text(help);
+    }
+    if ui.button(state.say(ErrorText::Anew)).on_hover_text(state.say(ErrorText::HelpAnew)).clicked() {
+        state.restart = true;
     }
 }
 

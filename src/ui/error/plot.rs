@@ -9,7 +9,8 @@ use super::series::{Series, Whose};
 use crate::engine::{Curves, Equal, Who};
 use crate::report::axis::{Axis, label};
 use eframe::egui::{
-    Align2, Color32, FontId, Painter, Pos2, Rect, RichText, Role, Sense, Shape, Stroke, StrokeKind, Ui, Visuals, WidgetInfo, pos2, vec2,
+    Align2, Color32, FontId, Painter, Pos2, Rect, RichText, Role, Sense, Shape, Stroke, StrokeKind, TextStyle, TextWrapMode, Ui, Vec2,
+    Visuals, WidgetInfo, WidgetText, pos2, vec2,
 };
 
 /// Height of the plot, points.
@@ -18,6 +19,12 @@ const HEIGHT: f32 = 250.0;
 const ROOM: [f32; 4] = [48.0, 20.0, 10.0, 36.0];
 /// An axis of one decade at least.
 const LEAST: f64 = 1.0;
+/// A line in the legend.
+const KEY: Vec2 = vec2(26.0, 18.0);
+/// Dashes of the slope −1 and of the reference's noise.
+const GUIDE: [f32; 2] = [7.0, 5.0];
+/// See [`GUIDE`].
+const FLOOR: [f32; 2] = [1.5, 3.5];
 
 /// Colour, mark and dash of a curve.
 #[derive(Clone, Copy)]
@@ -127,10 +134,10 @@ impl Plot<'_> {
         let (painter, stroke) = (self.painter.with_clip_rect(self.area), Stroke::new(1.3, visuals.weak_text_color()));
         let end = 10f64.powf(self.axes[0].high);
         let [along, up] = first;
-        line(&painter, &[self.at(first), self.at([end, up * along / end])], stroke, Some([7.0, 5.0]));
+        line(&painter, &[self.at(first), self.at([end, up * along / end])], stroke, Some(GUIDE));
         if let Some(noise) = noise {
             let ends = [self.axes[0].low, self.axes[0].high].map(|log| self.at([10f64.powf(log), noise]));
-            line(&painter, &ends, stroke, Some([1.5, 3.5]));
+            line(&painter, &ends, stroke, Some(FLOOR));
         }
     }
 }
@@ -182,33 +189,40 @@ pub fn show(ui: &mut Ui, state: &State, curves: &Curves, series: &[Series]) {
 pub fn legend(ui: &mut Ui, state: &State, curves: &Curves, series: &[Series]) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 5.0;
+        ui.set_row_height(KEY.y);
         for series in series {
-            let Look { colour, mark: shape, dash } = look(series.whose, ui.visuals());
-            key(ui, |painter, rect| {
-                line(painter, &[rect.left_center(), rect.right_center()], Stroke::new(1.7, colour), dash);
-                mark(painter, shape, rect.center(), colour);
-            });
+            let look = look(series.whose, ui.visuals());
             let slope = series.slope.map(|slope| fill(state.say(ErrorText::Slope), &[&format!("{slope:.2}").replace('-', "−")]));
             let words = slope.map_or_else(|| series.name.clone(), |slope| format!("{}, {slope}", series.name));
-            ui.label(RichText::new(words).small()).on_hover_text(state.say(ErrorText::HelpSlope));
-            ui.add_space(6.0);
+            let stroke = Stroke::new(1.7, look.colour);
+            key(ui, RichText::new(words), (stroke, look.dash, Some(look.mark)), state.say(ErrorText::HelpSlope));
         }
         let stroke = Stroke::new(1.3, ui.visuals().weak_text_color());
-        key(ui, |painter, rect| line(painter, &[rect.left_center(), rect.right_center()], stroke, Some([7.0, 5.0])));
-        ui.label(RichText::new(state.say(ErrorText::Guide)).small().weak());
+        let guide = RichText::new(state.say(ErrorText::Guide)).weak();
+        key(ui, guide, (stroke, Some(GUIDE), None), state.say(ErrorText::HelpSlope));
         if let Some(noise) = noise(curves) {
-            ui.add_space(6.0);
-            key(ui, |painter, rect| line(painter, &[rect.left_center(), rect.right_center()], stroke, Some([1.5, 3.5])));
-            let words = format!("{} {}", state.say(ErrorText::Floor), format::short(noise));
-            ui.label(RichText::new(words).small().weak()).on_hover_text(state.say(ErrorText::HelpFloor));
+            let words = RichText::new(format!("{} {}", state.say(ErrorText::Floor), format::short(noise))).weak();
+            key(ui, words, (stroke, Some(FLOOR), None), state.say(ErrorText::HelpFloor));
         }
     });
 }
 
-/// A piece of a line, as it is drawn in the plot.
-fn key(ui: &mut Ui, draw: impl FnOnce(&Painter, Rect)) {
-    let (rect, _) = ui.allocate_exact_size(vec2(26.0, 14.0), Sense::hover());
-    draw(ui.painter(), rect);
+/// A piece of a line, as it is drawn in the plot, and what it is; never at the ends of two rows.
+fn key(ui: &mut Ui, words: RichText, (stroke, dash, shape): (Stroke, Option<[f32; 2]>, Option<usize>), help: &str) {
+    let text = WidgetText::from(words.small()).into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, TextStyle::Small);
+    let size = vec2(KEY.x + 5.0 + text.size().x + 8.0, KEY.y);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let line_of = Rect::from_min_size(rect.min, KEY);
+    let painter = ui.painter();
+    line(painter, &[line_of.left_center(), line_of.right_center()], stroke, dash);
+    if let Some(shape) = shape {
+        mark(painter, shape, line_of.center(), stroke.color);
+    }
+    let spoken = text.text().to_owned();
+    let colour = if shape.is_some() { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
+    painter.galley(pos2(line_of.right() + 5.0, rect.center().y - 0.5 * text.size().y), text, colour);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &spoken));
+    response.on_hover_text(help);
 }
 
 #[cfg(test)]

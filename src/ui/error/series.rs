@@ -63,21 +63,23 @@ fn drawn(state: &State, error: Error) -> f64 {
 
 /// All curves that are drawn.
 pub fn all(state: &State, live: &Live, curves: &Curves) -> Vec<Series> {
-    let noise = curves.reference.as_ref().and_then(|reference| reference.noise);
+    // Of a picture that was given nothing is known; one that is rendered tells its noise soon.
+    let reference = curves.reference.as_ref();
+    let noise = reference.and_then(|reference| reference.noise.or((reference.spp == 0).then_some(0.0)));
     let along = |spp: f64, seconds: f64| if state.error.equal == Equal::Samples { spp } else { seconds };
     let mut series: Vec<Series> = curves
         .runs
         .iter()
         .map(|curve| {
             let points: Vec<_> = curve.points.iter().map(|point| [along(point.spp, point.seconds), drawn(state, point.error)]).collect();
-            let slope = slope(&points, noise);
+            let slope = noise.and_then(|noise| slope(&points, noise));
             Series { whose: Whose::Run(curve.who), name: name(state, live, curve.who), points, slope }
         })
         .collect();
     for (number, strategy) in chosen(state, curves).into_iter().enumerate() {
         let Some(curve) = curves.strategies.iter().find(|curve| curve.strategy == strategy) else { continue };
         let points: Vec<_> = curve.points.iter().map(|[spp, seconds, error]| [along(*spp, *seconds), *error]).collect();
-        let (name, slope) = (full_name(strategy, state.prefs.lang), slope(&points, None));
+        let (name, slope) = (full_name(strategy, state.prefs.lang), slope(&points, 0.0));
         series.push(Series { whose: Whose::Strategy(strategy, number), name, points, slope });
     }
     series.retain(|series| !series.points.is_empty());
@@ -104,8 +106,7 @@ fn chosen(state: &State, curves: &Curves) -> Vec<Strategy> {
 }
 
 /// The slope less the reference's noise, where that is less than half of what was measured.
-fn slope(points: &[[f64; 2]], noise: Option<f64>) -> Option<f64> {
-    let noise = noise.unwrap_or(0.0);
+fn slope(points: &[[f64; 2]], noise: f64) -> Option<f64> {
     let clear: Vec<[f64; 2]> = points.iter().filter(|[_, up]| *up > 2.0 * noise).map(|[along, up]| [*along, up - noise]).collect();
     // Two points are no line.
     (clear.len() >= 3).then(|| log_slope(&clear)).flatten()
@@ -116,7 +117,7 @@ pub fn moment(runs: &[Curve], equal: Equal) -> Option<Moment> {
     let lasts: Vec<&Point> = runs.iter().map(|run| run.points.last()).collect::<Option<_>>()?;
     if equal == Equal::Samples {
         let in_all = |spp: f64| runs.iter().all(|run| run.points.iter().any(|point| point.spp == spp));
-        let budget = runs.first()?.points.iter().map(|point| point.spp).filter(|spp| in_all(*spp)).last()?;
+        let budget = runs.first()?.points.iter().map(|point| point.spp).rfind(|spp| in_all(*spp))?;
         return Some(Moment { budget, equal: true });
     }
     let budget = lasts.iter().map(|point| point.seconds).fold(f64::INFINITY, f64::min);
@@ -146,7 +147,7 @@ mod tests {
     fn equal_samples_are_the_most_that_all_have() {
         let image = curve(Who::Image, &[[1.0, 0.2, 1.0], [2.0, 0.4, 0.5], [4.0, 0.8, 0.25], [7.0, 1.4, 0.14]]);
         let pt = curve(Who::Pt, &[[1.0, 0.1, 2.0], [2.0, 0.2, 1.0], [4.0, 0.4, 0.5]]);
-        assert_eq!(moment(&[image.clone()], Equal::Samples), Some(Moment { budget: 7.0, equal: true }));
+        assert_eq!(moment(std::slice::from_ref(&image), Equal::Samples), Some(Moment { budget: 7.0, equal: true }));
         let found = moment(&[image.clone(), pt.clone()], Equal::Samples);
         assert_eq!(found, Some(Moment { budget: 4.0, equal: true }));
         assert_eq!(at(&image.points, Equal::Samples, 4.0).map(|point| point.seconds), Some(0.8));
@@ -169,12 +170,12 @@ mod tests {
     fn a_slope_leaves_the_noise_out_and_needs_three_points() {
         let fall = |noise: f64| (0..8).map(|i| [f64::from(1 << i), 1.0 / f64::from(1 << i) + noise]).collect::<Vec<_>>();
         let near = |found: Option<f64>, expected: f64| assert!(found.is_some_and(|x| (x - expected).abs() < 1e-9), "{found:?}");
-        near(slope(&fall(0.0), None), -1.0);
-        near(slope(&fall(0.01), Some(0.01)), -1.0);
-        assert!(slope(&fall(0.01), None).is_some_and(|x| x > -0.9), "the control: with the noise it is flatter");
-        assert_eq!(slope(&fall(0.0)[..2], None), None);
+        near(slope(&fall(0.0), 0.0), -1.0);
+        near(slope(&fall(0.01), 0.01), -1.0);
+        assert!(slope(&fall(0.01), 0.0).is_some_and(|x| x > -0.9), "the control: with the noise it is flatter");
+        assert_eq!(slope(&fall(0.0)[..2], 0.0), None);
         // Only the first four points are above twice the noise.
-        near(slope(&fall(0.1), Some(0.1)), -1.0);
-        assert_eq!(slope(&fall(0.3), Some(0.3)), None);
+        near(slope(&fall(0.1), 0.1), -1.0);
+        assert_eq!(slope(&fall(0.3), 0.3), None);
     }
 }

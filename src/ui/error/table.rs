@@ -26,8 +26,11 @@ fn numbers(point: &Point) -> [String; 5] {
     [spp, format::short(seconds), format::short(error.all), format::short(error.trimmed), efficiency]
 }
 
+/// A rendering's name and numbers.
+type Named = (String, [String; 5]);
+
 /// What renderings are compared at, in a sentence, and each with its numbers.
-fn rows(state: &State, live: &Live, curves: &Curves) -> Option<(String, Vec<(String, [String; 5])>)> {
+fn rows(state: &State, live: &Live, curves: &Curves) -> Option<(String, Vec<Named>)> {
     let equal = state.error.equal;
     // Who has no point yet has no row.
     let runs: Vec<_> = curves.runs.iter().filter(|run| !run.points.is_empty()).cloned().collect();
@@ -146,11 +149,7 @@ pub fn summary(state: &State, live: &Live) -> Option<Block> {
         ErrorText::HelpHeadTrimmed,
         ErrorText::Efficiency,
     ];
-    let row = |(name, numbers): (String, [String; 5])| Row {
-        cells: std::iter::once(name).chain(numbers).collect(),
-        data: Vec::new(),
-        chosen: false,
-    };
+    let row = |(name, numbers): Named| Row { cells: std::iter::once(name).chain(numbers).collect(), data: Vec::new(), chosen: false };
     Some(Block::Table {
         caption: format!("{}: {caption}", state.say(ErrorText::Tab)),
         head: heads.into_iter().map(|text| state.say(text).to_owned()).collect(),

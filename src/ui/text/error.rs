@@ -42,6 +42,8 @@ texts! { ErrorText;
     OtherWeights: "The image weighs its strategies otherwise than the reference, so they cannot be measured: let the reference go and render another.", "图像的策略权重与参考图不同，因此无法逐策略测量：请放弃参考图并重新渲染。";
     Trimmed: "Without the 0.1 % worst pixels", "略去最差的 0.1% 像素";
     HelpTrimmed: "Draws the trimmed error: fireflies decide it less.", "绘制截尾误差：受亮斑影响较小。";
+    Anew: "Image anew", "图像重新开始";
+    HelpAnew: "Starts the image over, so that its curve begins at the first sample, too. The reference stays.", "图像重新开始渲染，使其曲线也从第一个采样开始；参考图保留。";
     // The curves.
     Waiting: "Nothing is measured yet: the first points come with the first passes.", "尚无测量结果：首批数据点在前几遍渲染后出现。";
     AlongSamples: "samples per pixel", "每像素采样数";
