@@ -8,6 +8,7 @@
 
 pub mod colourmap;
 pub mod difference;
+pub mod error;
 pub mod picture;
 pub mod runs;
 pub mod save;

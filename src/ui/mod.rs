@@ -14,6 +14,7 @@ mod compare;
 mod darkroom;
 mod drawn;
 mod edit;
+mod error;
 mod export;
 mod features;
 mod files;

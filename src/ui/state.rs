@@ -4,6 +4,7 @@ pub use super::checks::{Ask, ChecksState};
 pub use super::compare::{CompareState, Mode as CompareMode, Source};
 pub use super::drawn::{Drawn, Draws, Why, Wish};
 pub use super::edit::EditState;
+pub use super::error::ErrorState;
 pub use super::export::{ExportState, What};
 pub use super::files::{FilesState, Given, Purpose};
 pub use super::image_view::ViewState;
@@ -186,6 +187,8 @@ pub struct State {
     pub checks: ChecksState,
     /// The suggestion of strategies.
     pub suggest: SuggestState,
+    /// Error against a reference.
+    pub error: ErrorState,
     /// Saving.
     pub export: ExportState,
     /// Files that come in without a path.
@@ -245,6 +248,7 @@ impl State {
             study: StudyState::default(),
             checks: ChecksState::default(),
             suggest: SuggestState::default(),
+            error: ErrorState::default(),
             export: ExportState::default(),
             files: FilesState::default(),
             tour: None,

@@ -29,6 +29,7 @@ macro_rules! texts {
 
 mod check;
 mod edit;
+mod error;
 mod export;
 mod files;
 mod inspect;
@@ -46,6 +47,7 @@ mod web;
 
 pub use check::{CheckText, phrase_text, said};
 pub use edit::EditText;
+pub use error::ErrorText;
 pub use export::ExportText;
 pub use files::FilesText;
 pub use inspect::InspectText;
@@ -259,6 +261,7 @@ mod tests {
         check(Text::ALL);
         check(CheckText::ALL);
         check(EditText::ALL);
+        check(ErrorText::ALL);
         check(ExportText::ALL);
         check(FilesText::ALL);
         check(LinkText::ALL);
