@@ -211,7 +211,7 @@ mod tests {
     #[test]
     fn the_noise_is_that_of_independent_parts() {
         let part = |pass: u32| -> Vec<Vec3> {
-            let number = |pixel| SampleId { x: pixel, y: 0, sample: pass, seed: 9 }.numbers(0)[0];
+            let number = |pixel| SampleId { x: pixel, y: 0, sample: pass, seed: 9, ..SampleId::default() }.numbers(0)[0];
             (0..500).map(|pixel| Vec3::new(number(pixel), 0.5 * number(pixel), 0.1)).collect()
         };
         let parts: Vec<_> = (0..6).map(part).collect();

@@ -107,7 +107,7 @@ mod tests {
 
     /// A number that is as good as normal: mean 0, variance 1; another for every seed, pixel and channel.
     fn normal(seed: u32, pixel: usize, channel: u32) -> f64 {
-        let id = SampleId { x: pixel as u32 % 1024, y: pixel as u32 / 1024, sample: channel, seed };
+        let id = SampleId { x: pixel as u32 % 1024, y: pixel as u32 / 1024, sample: channel, seed, ..SampleId::default() };
         (0..3).flat_map(|block| id.numbers(block)).map(f64::from).sum::<f64>() - 6.0
     }
 
