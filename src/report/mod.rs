@@ -1,5 +1,6 @@
 //! What a rendering is told as: the labelled sheet of strategy images, the names it goes by, whether it is right, and how fast.
 
+pub mod axis;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod bench;
 pub mod canvas;
@@ -10,6 +11,8 @@ pub mod export;
 pub mod growth;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod loglog;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod mitsuba;
 
 pub use canvas::Canvas;
 pub use contact_sheet::{ContactSheet, Heading};

@@ -3,8 +3,9 @@
 
 use super::stats::Interval;
 use super::{Clock, MethodResult, Point, SceneResult};
+use crate::report::axis::Axis;
 use crate::report::export::svg_parts::number;
-use crate::report::loglog::{Axis, Place, Plot};
+use crate::report::loglog::{Place, Plot};
 
 /// What lies along the plot's horizontal axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,7 +3,8 @@
 use super::run::name;
 use super::{Cost, Growth, Series};
 use crate::engine::Backend;
-use crate::report::loglog::{Axis, Place, Plot};
+use crate::report::axis::Axis;
+use crate::report::loglog::{Place, Plot};
 
 /// Places on the line of what is demanded.
 const STEPS: u32 = 48;
