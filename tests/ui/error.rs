@@ -228,6 +228,16 @@ fn every_strategy_has_a_row_by_what_its_noise_adds() {
     assert!(has(&window, &format!("({s},{t}), slope −")) || most.points.len() < 3, "it is in the legend");
 }
 
+/// Waits until a pixel shows a value: a row of figures that comes meanwhile moves the image.
+fn shows(window: &mut Harness<'static, App>, [x, y]: [u32; 2], value: &str) {
+    let (label, end) = (format!("at {x}, {y}: {value}"), Instant::now() + Duration::from_secs(60));
+    while window.query_by_label(&label).is_none() {
+        assert!(Instant::now() < end, "never {label}");
+        std::thread::sleep(Duration::from_millis(5));
+        hover(window, [x, y]);
+    }
+}
+
 #[test]
 fn shift_peeks_at_the_reference_and_v_shows_the_image_against_it() {
     let (mut window, pixels) = (page(), right(2));
@@ -247,17 +257,13 @@ fn shift_peeks_at_the_reference_and_v_shows_the_image_against_it() {
     window.run_steps(3);
     assert_eq!(under_pointer(&window, here), written(image));
     press(&mut window, Key::V);
-    hover(&mut window, here);
     let compare = &window.state().state().compare;
     assert_eq!((compare.mode, compare.metric), (CompareMode::Difference, Metric::Signed));
-    assert_eq!(under_pointer(&window, here), written(image - pixels[index]));
+    shows(&mut window, here, &written(image - pixels[index]));
     press(&mut window, Key::V);
-    hover(&mut window, here);
-    let number = super::view::number(f64::from(Metric::RelativeSquared.of(image, pixels[index])));
-    assert_eq!(under_pointer(&window, here), number);
+    shows(&mut window, here, &super::view::number(f64::from(Metric::RelativeSquared.of(image, pixels[index]))));
     press(&mut window, Key::V);
-    hover(&mut window, here);
-    assert_eq!(under_pointer(&window, here), written(image));
+    shows(&mut window, here, &written(image));
 }
 
 #[test]
