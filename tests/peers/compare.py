@@ -12,8 +12,8 @@ everything it loads.  All renderers get the same export of the same scene, at 25
 many seconds of CPU (ours by a number of samples that a short run before tells), with as many
 threads as they like; Mitsuba's kernels have been compiled before and are loaded from disk.  Ours is
 truncated at K edges, LuxCore at its depths; the others and the reference are not.  A reference is a
-long run with other seeds: in A Mitsuba's path tracer, in C its light tracer, in B ours with 64 edges,
-as Mitsuba cannot make B's caustics.  Its noise is that of two halves; `mean` is the picture's mean
+long run with other seeds: in A Mitsuba's path tracer, in C its light tracer, in B ours with 64
+edges, as Mitsuba cannot make B's caustics.  Its noise is that of two halves; `mean` is the picture's mean
 over the reference's, with the standard error of the former: more than a few of those off is a bias.
 Leave the machine alone meanwhile.
 """
