@@ -20,14 +20,19 @@ pub struct Prepared {
 pub fn prepare(args: &EstimatorArgs, hide: bool) -> Result<Prepared, Failure> {
     let job = view(&args.scene, &args.view)?;
     let existence = job.existence();
-    let (taking_part, shown) = strategies(args, hide, existence)?;
-    let settings = Settings {
+    let mut settings = Settings {
         seed: args.seed,
+        sampler: args.sampler,
         heuristic: Heuristic { kind: args.heuristic, beta: args.beta, cutoff: args.cutoff },
         roulette: args.roulette,
-        strategies: taking_part,
         ..job.settings
     };
+    let job = Job { settings, ..job };
+    let (taking_part, shown) = match args.strategies {
+        Selection::Suggested => suggested(args, hide, &job)?,
+        _ => strategies(args, hide, existence)?,
+    };
+    settings.strategies = taking_part;
     let hide = hide && existence.active(&settings).count() > shown.len();
     say_notes(&job.scene);
     say_what_is_lost(existence, &settings);
@@ -87,6 +92,24 @@ fn lens(own: Lens, args: &ViewArgs) -> Option<Lens> {
     }
     let lens = Lens { radius, focus_distance: args.focus_distance.unwrap_or(own.focus_distance) };
     (lens != own).then_some(lens)
+}
+
+/// The strategies that a pilot run suggests, and the same as a list.
+fn suggested(args: &EstimatorArgs, hide: bool, job: &Job) -> Result<(StrategySet, Vec<Strategy>), Failure> {
+    if hide || args.integrator != "bdpt" {
+        let other = if hide { "--strategies-mode hide".to_owned() } else { format!("--integrator {}", args.integrator) };
+        return Err(Failure(format!(
+            "--strategies suggested chooses who shares the weights, so it does not go with {other}; leave one out"
+        )));
+    }
+    job.check()?;
+    let best = job.judge_strategies().into_iter().next().filter(|best| best.is_worth_it());
+    match &best {
+        Some(best) => eprintln!("note: rendering with {}; `suggest {}` shows why", best.family, args.scene),
+        None => eprintln!("note: rendering with all strategies: the pilot run found no set that is surely better"),
+    }
+    let set = best.map_or(StrategySet::ALL, |best| best.family.set());
+    Ok((set, job.existence().active(&Settings { strategies: set, ..job.settings }).collect()))
 }
 
 /// The strategies that share the weights, and those whose sum is the picture.

@@ -11,6 +11,7 @@ mod job;
 mod merge;
 mod progress;
 mod render;
+mod suggest;
 mod values;
 
 use crate::engine::{JobError, Still};
@@ -100,6 +101,7 @@ where
         (Some(Command::Merge(args)), None) => merge::run(&args).map(|()| ExitCode::SUCCESS),
         (Some(Command::Inspect(args)), None) => inspect::run(&args).map(|()| ExitCode::SUCCESS),
         (Some(Command::Check(args)), None) => check::run(&args),
+        (Some(Command::Suggest(args)), None) => suggest::run(&args).map(|()| ExitCode::SUCCESS),
         (Some(Command::Bench(args)), None) => bench::run(&args).map(|()| ExitCode::SUCCESS),
         (Some(Command::Export(args)), None) => export::run(&args).map(|()| ExitCode::SUCCESS),
     };

@@ -1,5 +1,6 @@
 //! What a rendering is told as: the labelled sheet of strategy images, the names it goes by, whether it is right, and how fast.
 
+pub mod axis;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod bench;
 pub mod canvas;
