@@ -203,7 +203,8 @@ fn a_density_of_zero_is_no_dirac() {
     path.k = 3;
     path.p_light[..4].copy_from_slice(&[1.0, 0.5, 0.0, 2.0]);
     path.p_eye[..4].copy_from_slice(&[0.25, 1.0, 0.5, 1.0]);
-    (path.samplable[..4].fill(true), path.active[..4].fill(true));
+    path.samplable[..4].fill(true);
+    path.active[..4].fill(true);
     // Strategy 3 and beyond would have to scatter where nothing is scattered: they have no weight, the others share it.
     let sum = |path: &FullPath| (0..3).map(|s| f64::from(mis_weight(path, s, &power(2.0)))).sum::<f64>();
     assert!((sum(&path) - 1.0).abs() < 1e-6, "{}", sum(&path));
