@@ -21,8 +21,8 @@ fn resolve_record(record: SplatRecord) {
     if record.pixel < first || record.pixel - first >= control.batch.tile_pixels {
         return;
     }
-    let id = SampleId(record.source & 0xffffu, record.source >> 16u, control.batch.pass_number, control.params.seed);
-    let u = numbers(id, BLOCK_SPLAT + record.s).xyz;
+    let id = SampleId(record.source & 0xffffu, record.source >> 16u, control.batch.pass_number, control.params.seed, control.params.sampler);
+    let u = hashed(id, BLOCK_SPLAT + record.s).xyz;
     let slot = tables[control.params.slots + record.strategy];
     let weighted = record.value * record.mis_weight;
     add_to_splats(0u, record.pixel - first, weighted, u);

@@ -5,14 +5,33 @@ struct SampleId {
     y: u32,
     sample: u32,
     seed: u32,
+    // One of SAMPLER_….
+    sampler: u32,
 }
 
 fn words(id: SampleId, block: u32) -> vec4<u32> {
-    return pcg4d(vec4<u32>(id.x | (id.y << 16u), id.sample, id.seed, block));
+    return pcg4d(vec4<u32>(pixel_word(id), id.sample, id.seed, block));
+}
+
+fn hashed(id: SampleId, block: u32) -> vec4<f32> {
+    return units_f32(words(id, block));
 }
 
 fn numbers(id: SampleId, block: u32) -> vec4<f32> {
-    let w = words(id, block);
+    // One hash, called from one place: the keys of the points, or the numbers themselves.
+    let spread = id.sampler == SAMPLER_SOBOL;
+    var w = pcg4d(vec4<u32>(pixel_word(id), select(id.sample, KEYS, spread), id.seed, block));
+    if spread {
+        w = sobol_words(id.sample, w);
+    }
+    return units_f32(w);
+}
+
+fn pixel_word(id: SampleId) -> u32 {
+    return id.x | (id.y << 16u);
+}
+
+fn units_f32(w: vec4<u32>) -> vec4<f32> {
     return vec4<f32>(unit_f32(w.x), unit_f32(w.y), unit_f32(w.z), unit_f32(w.w));
 }
 

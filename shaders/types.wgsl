@@ -167,6 +167,8 @@ const BLOCK_FRESH_LENS: u32 = 256u;
 const BLOCK_SPLAT: u32 = 336u;
 const BLOCK_FRESH_PLACE: u32 = 416u;
 const BLOCK_ALPHA: u32 = 512u;
+const SAMPLER_HASH: u32 = 0u;
+const SAMPLER_SOBOL: u32 = 1u;
 
 // bdpt/vertex.rs
 struct Vertex {
@@ -254,7 +256,7 @@ struct Params {
     uvs: u32,
     colors: u32,
     canary: u32,
-    _pad0: u32,
+    sampler: u32,
     strategies: array<vec4<u32>, 18>,
 }
 

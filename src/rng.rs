@@ -1,7 +1,9 @@
 //! Random numbers without state: a counter hashed by pcg4d (Jarzynski & Olano 2020, "Hash Functions for GPU Rendering").
 //!
-//! `numbers(pixel, sample, seed, block)` are four independent numbers, the same on every machine. A *block* says what they
-//! are for; this is the whole table, and no two purposes share a block:
+//! `numbers(pixel, sample, seed, block)` are four numbers, the same on every machine. Those of a pixel's samples are independent
+//! ([`Sampler::Hash`]), or fill the unit cube evenly from sample to sample ([`Sampler::Sobol`], see [`sobol`]); those of different
+//! pixels, seeds and blocks are independent under either. A *block* says what they are for; this is the whole table, and no two
+//! purposes share a block:
 //!
 //! | block | purpose | the four numbers |
 //! |---|---|---|
@@ -17,8 +19,16 @@
 //! | 416 + t | fresh light end of (1, t) | place in the environment's cell (2) |
 //! | 512 + 16 + i | light subpath, segment from y_i | key of the draws that accept hits where alpha is below 1 |
 //! | 512 + 96 + i | eye subpath, segment from z_i | the same |
+//!
+//! Roundings of splats and draws of alpha have the hash under either sampler. They do not say where a path goes: they meet another
+//! value, on another pixel, or another triangle each time, so that no sum over the samples would be smoother for their being even. (A
+//! draw of alpha is a hash of its key and the triangle anyway.)
+
+pub mod sobol;
 
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
+use sobol::{sobol_keys, sobol_words};
 
 /// Block of the eye subpath's start.
 pub const BLOCK_EYE_START: u32 = 0;
@@ -44,6 +54,36 @@ pub const BLOCK_FRESH_PLACE: u32 = 416;
 /// What is added to a walk's first block for its segments' draws of alpha.
 pub const BLOCK_ALPHA: u32 = 512;
 
+/// How the numbers of a pixel's samples go together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[repr(u32)]
+pub enum Sampler {
+    /// They are independent.
+    #[default]
+    Hash = 0,
+    /// They fill the unit cube evenly: scrambled points of Sobol's kind, a set for each block.
+    Sobol = 1,
+}
+
+impl Sampler {
+    /// Both, in the order they are offered.
+    pub const ALL: [Self; 2] = [Self::Hash, Self::Sobol];
+
+    /// "hash", "sobol".
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Hash => "hash",
+            Self::Sobol => "sobol",
+        }
+    }
+
+    /// Are the samples of a pixel independent of each other, so that how they differ tells how far their mean is from the truth?
+    pub const fn is_independent(self) -> bool {
+        matches!(self, Self::Hash)
+    }
+}
+
 /// The counter's fixed part: which sample of which pixel, under which seed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SampleId {
@@ -55,19 +95,42 @@ pub struct SampleId {
     pub sample: u32,
     /// Seed of the whole image.
     pub seed: u32,
+    /// How the pixel's samples go together.
+    pub sampler: Sampler,
 }
 
 impl SampleId {
-    /// The four words of a block.
+    /// The four words of a block: the hash, under either sampler.
     #[inline]
     pub fn words(&self, block: u32) -> [u32; 4] {
-        pcg4d([self.x | (self.y << 16), self.sample, self.seed, block])
+        pcg4d([self.pixel(), self.sample, self.seed, block])
+    }
+
+    /// The same as numbers.
+    #[inline]
+    pub fn hashed(&self, block: u32) -> [f32; 4] {
+        self.words(block).map(unit_f32)
     }
 
     /// The four numbers of a block, each in [0, 1).
     #[inline]
     pub fn numbers(&self, block: u32) -> [f32; 4] {
-        self.words(block).map(unit_f32)
+        match self.sampler {
+            Sampler::Hash => self.hashed(block),
+            Sampler::Sobol => self.spread(block),
+        }
+    }
+
+    /// The four numbers of a block as [`Sampler::Sobol`] has them.
+    #[inline(never)]
+    fn spread(&self, block: u32) -> [f32; 4] {
+        sobol_words(self.sample, sobol_keys(self.pixel(), self.seed, block)).map(unit_f32)
+    }
+
+    /// The pixel in a word.
+    #[inline]
+    fn pixel(&self) -> u32 {
+        self.x | (self.y << 16)
     }
 }
 
@@ -116,9 +179,9 @@ mod tests {
     #[test]
     fn numbers_are_uniform_and_uncorrelated_between_neighbours() {
         // Mean, variance and lag correlation over pixels, samples and blocks; 6-sigma bounds on 2^18 numbers.
-        let id = |i: u32| SampleId { x: i & 255, y: i >> 8 & 255, sample: i >> 16, seed: 7 };
         let n = 1u32 << 18;
-        for block in [0u32, 1, 17, 97] {
+        for (sampler, block) in Sampler::ALL.into_iter().flat_map(|sampler| [0u32, 1, 17, 97].map(|block| (sampler, block))) {
+            let id = |i: u32| SampleId { x: i & 255, y: i >> 8 & 255, sample: i >> 16, seed: 7, sampler };
             let (mut mean, mut square, mut lag) = (0.0f64, 0.0f64, 0.0f64);
             for i in 0..n {
                 let a = f64::from(id(i).numbers(block)[(i & 3) as usize]) - 0.5;

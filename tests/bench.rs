@@ -10,6 +10,7 @@ use bdpt_explorer::math::Vec3;
 use bdpt_explorer::report::bench::run::{Control, Source, Wanted, measure};
 use bdpt_explorer::report::bench::summary::{Moment, Row, Slope};
 use bdpt_explorer::report::bench::{Integrator, Method, Reference, SceneResult};
+use bdpt_explorer::rng::Sampler;
 use bdpt_explorer::scene::builtin;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -18,7 +19,7 @@ const SIZE: [u32; 2] = [24, 24];
 
 fn wanted(scene: &str, reference: Source, integrators: &[Integrator]) -> Wanted {
     let job = Job { size: SIZE, ..Job::new(Arc::new(builtin::open(scene).expect("a built-in scene opens"))) };
-    let method = |&integrator| Method { integrator, heuristic: HeuristicKind::Power, backend: Backend::Cpu };
+    let method = |&integrator| Method { integrator, heuristic: HeuristicKind::Power, backend: Backend::Cpu, sampler: Sampler::Hash };
     let methods = integrators.iter().map(method).collect();
     Wanted { job, names: [scene.to_owned(), scene.to_owned()], methods, seeds: 10, spp: 32, time: None, reference }
 }

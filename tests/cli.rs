@@ -8,6 +8,8 @@ mod merge;
 mod no_window;
 #[path = "common/skip.rs"]
 mod skip;
+#[path = "cli/suggest.rs"]
+mod suggest;
 
 use exr::prelude::*;
 use std::collections::BTreeMap;
@@ -121,6 +123,7 @@ fn bad_input_is_one_line_and_status_2_and_leaves_nothing() {
         ("render cornell -o a.exr --tonemap sepia", "--tonemap"),
         ("render cornell -o a.exr --heuristic best", "--heuristic"),
         ("render cornell -o a.exr --seed -1", "--seed"),
+        ("render cornell -o a.exr --sampler halton", "--sampler"),
         ("render cornell -o a.exr --camera nobody", "'nobody'"),
         ("render cornell -o a.exr --scene nothing", "the scene 'nothing' is not in it; it has '0'"),
         ("render cornell -o a.exr --backend abacus", "--backend"),
@@ -286,7 +289,7 @@ fn inspect_says_the_same_every_time_and_its_json_has_the_agreed_keys() {
     let (first, second) = (succeed(folder.path(), line), succeed(folder.path(), line));
     assert_eq!(first.stdout, second.stdout);
     let record: serde_json::Value = serde_json::from_slice(&first.stdout).unwrap();
-    for key in ["scene", "pixel", "sample", "seed", "size", "light", "eye", "strategies"] {
+    for key in ["scene", "pixel", "sample", "seed", "sampler", "size", "light", "eye", "strategies"] {
         assert!(!record[key].is_null(), "{key}");
     }
     let strategies = record["strategies"].as_array().unwrap();
@@ -296,6 +299,8 @@ fn inspect_says_the_same_every_time_and_its_json_has_the_agreed_keys() {
     {
         assert!(strategies.iter().all(|entry| entry.get(key).is_some()), "{key}");
     }
+    let even: serde_json::Value = serde_json::from_slice(&succeed(folder.path(), &format!("{line} --sampler sobol")).stdout).unwrap();
+    assert!(even["sampler"] == "sobol" && record["sampler"] == "hash" && even["eye"] != record["eye"]);
     let table = stdout(&succeed(folder.path(), "inspect cornell --pixel 200,300 --sample 7 --seed 3"));
     for word in ["Light subpath", "Eye subpath", "next event", "light tracer", "(1,2)", "y0", "z1"] {
         assert!(table.contains(word), "{word}\n{table}");

@@ -24,7 +24,8 @@ fn strategy_index(s: u32, t: u32) -> u32 {
 // The sample of a pair of this batch.
 fn sample_of(pair: u32) -> SampleId {
     let row = pair / control.params.size.x;
-    return SampleId(pair % control.params.size.x, control.batch.first_row + row * control.batch.row_step, control.batch.pass_number, control.params.seed);
+    let pixel = vec2<u32>(pair % control.params.size.x, control.batch.first_row + row * control.batch.row_step);
+    return SampleId(pixel.x, pixel.y, control.batch.pass_number, control.params.seed, control.params.sampler);
 }
 
 fn in_crop(pixel: vec2<u32>) -> bool {

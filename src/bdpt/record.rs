@@ -13,6 +13,7 @@ use super::settings::Heuristic;
 use super::strategy::Strategy;
 use super::vertex::End;
 use crate::math::Vec3;
+use crate::rng::Sampler;
 use crate::scene::{Pose, SceneEdits};
 use serde::{Serialize, Serializer};
 
@@ -253,6 +254,8 @@ pub struct PathRecord {
     pub sample: u32,
     /// Seed.
     pub seed: u32,
+    /// How the samples of a pixel go together.
+    pub sampler: Sampler,
     /// Film size, pixels.
     pub size: [u32; 2],
     /// Radius of the lens, m; 0 is a pinhole.

@@ -11,7 +11,7 @@ use super::context::Context;
 use super::existence::Existence;
 use super::settings::Settings;
 use super::strategy::{MAX_VERTICES, Strategy};
-use crate::film::{Film, Layers, Means, Rect, Row, Splats};
+use crate::film::{Film, Layers, Means, Rect, Row, SplatBatch, Splats};
 use crate::math::Vec3;
 use crate::rng::{BLOCK_SPLAT, SampleId};
 use crate::scene::light::{AREA, Light};
@@ -173,10 +173,11 @@ pub fn render_rows(context: &Context, plan: &Plan, film: &mut Film, crop: Rect, 
 pub fn render_rows_as<F: Shape>(context: &Context<F>, plan: &Plan, film: &mut Film, crop: Rect, pass: u32, rows: &[u32]) -> Counts {
     let (rows, splats) = film.rows(rows);
     rows.into_par_iter()
-        .map_init(Sample::default, |sample, mut row| {
-            let mut target = Target { splats, pass, crop, counts: Counts::default() };
+        .map_init(<(Sample, SplatBatch)>::default, |(sample, batch), mut row| {
+            let mut target = Target { splats: &splats, batch, pass, crop, counts: Counts::default() };
             target.render_row(context, plan, sample, &mut row);
             row.count_sample();
+            target.counts.saturated = splats.take(target.batch);
             target.counts.rays_closest = std::mem::take(&mut sample.rays_closest);
             target.counts.rays_shadow = std::mem::take(&mut sample.rays_shadow);
             target.counts
@@ -184,17 +185,18 @@ pub fn render_rows_as<F: Shape>(context: &Context<F>, plan: &Plan, film: &mut Fi
         .reduce(Counts::default, Counts::plus)
 }
 
-struct Target<'a> {
-    splats: Splats<'a>,
+struct Target<'a, 'f> {
+    splats: &'a Splats<'f>,
+    batch: &'a mut SplatBatch,
     pass: u32,
     crop: Rect,
     counts: Counts,
 }
 
-impl Target<'_> {
+impl Target<'_, '_> {
     fn render_row<F: Shape>(&mut self, context: &Context<F>, plan: &Plan, sample: &mut Sample, row: &mut Row) {
         for x in 0..context.view.size[0] {
-            let id = SampleId { x, y: row.y, sample: self.pass, seed: context.settings.seed };
+            let id = context.settings.sample([x, row.y], self.pass);
             let eye_vertices = if self.crop.contains([x, row.y]) { plan.eye_vertices } else { 0 };
             sample.trace(context, id, plan.light_vertices, eye_vertices);
             let (n_light, n_eye) = (sample.light.vertices.len() as u32, sample.eye.vertices.len());
@@ -204,7 +206,7 @@ impl Target<'_> {
             // Strategies beyond a subpath's end contribute zero; the fresh end of (1, t) needs no light subpath.
             for family in plan.by_t.iter().take(n_eye + 1).skip(1) {
                 for &(strategy, slot) in family.iter().take_while(|(x, _)| x.s <= n_light.max(1)) {
-                    if let Ok(contribution) = sample.evaluate(context, strategy) {
+                    if let Ok(contribution) = sample.evaluate_without_path(context, strategy) {
                         self.add(strategy, slot, &contribution, id, row);
                     }
                 }
@@ -241,10 +243,10 @@ impl Target<'_> {
                 }
             }
         } else if self.crop.contains(contribution.pixel) {
-            let [u0, u1, u2, _] = id.numbers(BLOCK_SPLAT + strategy.s);
+            let [u0, u1, u2, _] = id.hashed(BLOCK_SPLAT + strategy.s);
             for (layer, value) in values {
                 if let Some(layer) = layer {
-                    self.counts.saturated += u64::from(!self.splats.add(contribution.pixel, layer, value, [u0, u1, u2]));
+                    self.splats.add(self.batch, contribution.pixel, layer, value, [u0, u1, u2]);
                 }
             }
         }

@@ -1,6 +1,7 @@
 //! What a user may choose about the estimator. Densities never depend on the crop window.
 
 use super::strategy::StrategySet;
+use crate::rng::{SampleId, Sampler};
 use serde::{Deserialize, Serialize};
 
 /// How strategies that can make the same path share it.
@@ -59,6 +60,9 @@ pub struct Settings {
     pub max_edges: u32,
     /// Seed of the random numbers.
     pub seed: u32,
+    /// How the random numbers of a pixel's samples go together. Where they are not independent, how samples differ does not tell
+    /// how far their mean is from the truth; seeds are always independent.
+    pub sampler: Sampler,
     /// Weights.
     pub heuristic: Heuristic,
     /// Russian roulette.
@@ -72,6 +76,22 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { max_edges: 6, seed: 0, heuristic: Heuristic::default(), roulette: true, strategies: StrategySet::ALL, fresh_ends: true }
+        Self {
+            max_edges: 6,
+            seed: 0,
+            sampler: Sampler::default(),
+            heuristic: Heuristic::default(),
+            roulette: true,
+            strategies: StrategySet::ALL,
+            fresh_ends: true,
+        }
+    }
+}
+
+impl Settings {
+    /// A sample of a pixel under these settings.
+    #[inline]
+    pub fn sample(&self, [x, y]: [u32; 2], sample: u32) -> SampleId {
+        SampleId { x, y, sample, seed: self.seed, sampler: self.sampler }
     }
 }

@@ -12,6 +12,9 @@
 //!     t ≤ 1   N tries per pass, one per light subpath:  the sum of N independent splats X, most of them 0 here, has the variance
 //!             N Var X = N (ΣC² − (ΣC)²/(N P)) / (N P − 1)  ≈  ΣC²/P − mean²/N
 //! ```
+//! The variance is that of one sample. Where samples are not independent (`rng::Sampler`), it comes out as σ² less their mean covariance:
+//! P/(P − 1) times too large at most, when their mean has no error left. It then is no measure of the error of the mean.
+//!
 //! A film for which this takes too many bytes is surveyed in blocks of pixels: all samples are the same, only the sums are taken
 //! over a block; the variance then holds how the pixels of a block differ, too. What is not finite is counted and left out.
 //! Everything is added in the order of the samples, so that a survey is always the same.
@@ -224,7 +227,7 @@ impl Survey {
     /// Adds sample `pass` of every pixel of a row. The context must be that of the plan.
     pub fn add_row(&mut self, context: &Context, y: u32, pass: u32) {
         for x in 0..self.size[0] {
-            self.add(context, SampleId { x, y, sample: pass, seed: context.settings.seed });
+            self.add(context, context.settings.sample([x, y], pass));
         }
         self.row_samples[y as usize] += 1;
         self.rows_done += 1;
@@ -328,7 +331,7 @@ pub fn pixel_outcomes(context: &Context, plan: &Plan, [x, y]: [u32; 2], samples:
     let mut found: Vec<_> = plan.strategies().map(|strategy| (strategy, Outcomes::default())).collect();
     let mut traced = Sample::default();
     for sample in 0..samples {
-        let id = SampleId { x, y, sample, seed: context.settings.seed };
+        let id = context.settings.sample([x, y], sample);
         traced.trace(context, id, plan.light_vertices(), plan.eye_vertices());
         for (strategy, outcomes) in &mut found {
             outcomes.count(traced.evaluate(context, *strategy));

@@ -1,11 +1,13 @@
 //! The words of the command line. Whatever can be judged without the scene is judged here, value by value.
 
+use super::export::ExportArgs;
 use super::values::*;
 use crate::bdpt::{HeuristicKind, Strategy};
 use crate::engine::{Backend, Crop};
 use crate::film::tonemap::ToneMap;
 use crate::report::bench::Integrator;
 use crate::report::check::Check;
+use crate::rng::Sampler;
 use crate::scene::environment::EnvironmentSource;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgAction, Args, Parser, Subcommand};
@@ -38,9 +40,13 @@ pub enum Command {
     /// Is the image of a scene right? Paths rebuilt by every strategy, strategies against each other, known answers;
     /// exit status 1 if a check fails
     Check(CheckArgs),
-    /// How fast does the error fall? Scenes × integrators × heuristics × backends, over independent seeds, against a converged
+    /// Which strategies does a scene need? A short pilot run judges what others would do: variance, cost, efficiency
+    Suggest(SuggestArgs),
+    /// How fast does the error fall? Scenes × integrators × heuristics × samplers × backends, over independent seeds, against a converged
     /// reference; writes a report, tables and plots
     Bench(BenchArgs),
+    /// Write a scene for another renderer: the same view, the same lights, the same materials where it has them
+    Export(ExportArgs),
 }
 
 #[derive(Args)]
@@ -105,6 +111,12 @@ pub struct LookArgs {
 }
 
 #[derive(Args)]
+pub struct SuggestArgs {
+    #[command(flatten)]
+    pub estimator: EstimatorArgs,
+}
+
+#[derive(Args)]
 pub struct InspectArgs {
     #[command(flatten)]
     pub estimator: EstimatorArgs,
@@ -157,6 +169,9 @@ pub struct BenchArgs {
     /// How strategies that can make the same path share it: power (β = 2), balance, max, cutoff (0.1), uniform
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = heuristic_parser(), default_value = "power")]
     pub heuristics: Vec<HeuristicKind>,
+    /// How the random numbers of a pixel's samples go together: independent (hash), evenly spread (sobol)
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = sampler_parser(), default_value = "hash")]
+    pub samplers: Vec<Sampler>,
     /// Who renders: cpu, gpu; with a gpu, time is that of the clock
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = renderer_parser(), default_value = "cpu")]
     pub backends: Vec<Backend>,
@@ -191,6 +206,38 @@ pub struct BenchArgs {
 pub struct EstimatorArgs {
     /// A built-in scene (see `scenes`), or a .gltf or .glb file
     pub scene: String,
+    #[command(flatten)]
+    pub view: ViewArgs,
+    /// Seed of the random numbers
+    #[arg(long, value_name = "N", value_parser = natural, allow_hyphen_values = true, default_value = "0")]
+    pub seed: u32,
+    /// How the random numbers of a pixel's samples go together: independent (hash), or evenly spread (sobol: less noise, and how
+    /// samples differ no longer tells the error). Seeds are independent either way
+    #[arg(long, value_name = "NAME", value_parser = sampler_parser(), default_value = "hash")]
+    pub sampler: Sampler,
+    /// How strategies that can make the same path share it
+    #[arg(long, value_name = "NAME", value_parser = heuristic_parser(), default_value = "power")]
+    pub heuristic: HeuristicKind,
+    /// Exponent of the power heuristic
+    #[arg(long, value_name = "B", value_parser = beta, allow_hyphen_values = true, default_value = "2")]
+    pub beta: f32,
+    /// Threshold of the cutoff heuristic, 0 to 1
+    #[arg(long, value_name = "A", value_parser = fraction, allow_hyphen_values = true, default_value = "0.1")]
+    pub cutoff: f32,
+    /// `all`, `suggested` (see the command `suggest`), or a list such as s0t2,s1t1
+    #[arg(long, value_name = "LIST", value_parser = Selection::parse, default_value = "all")]
+    pub strategies: Selection,
+    /// Bidirectional, or only the strategies of a path tracer (s ≤ 1) or a light tracer (t ≤ 1)
+    #[arg(long, value_name = "NAME", value_parser = ["bdpt", "pt", "lt"], default_value = "bdpt")]
+    pub integrator: String,
+    /// Russian roulette
+    #[arg(long, value_name = "on|off", action = ArgAction::Set, value_parser = PossibleValuesParser::new(["on", "off"]).map(|word| word == "on"), default_value = "on")]
+    pub roulette: bool,
+}
+
+/// What of a scene is seen, and how.
+#[derive(Args)]
+pub struct ViewArgs {
     /// Size of the full picture
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true, default_value = "512x512")]
     pub size: [u32; 2],
@@ -215,33 +262,14 @@ pub struct EstimatorArgs {
     /// K: the most edges a path may have, 1 to 64
     #[arg(long, value_name = "K", value_parser = edges, allow_hyphen_values = true, default_value = "6")]
     pub max_edges: u32,
-    /// Seed of the random numbers
-    #[arg(long, value_name = "N", value_parser = natural, allow_hyphen_values = true, default_value = "0")]
-    pub seed: u32,
-    /// How strategies that can make the same path share it
-    #[arg(long, value_name = "NAME", value_parser = heuristic_parser(), default_value = "power")]
-    pub heuristic: HeuristicKind,
-    /// Exponent of the power heuristic
-    #[arg(long, value_name = "B", value_parser = beta, allow_hyphen_values = true, default_value = "2")]
-    pub beta: f32,
-    /// Threshold of the cutoff heuristic, 0 to 1
-    #[arg(long, value_name = "A", value_parser = fraction, allow_hyphen_values = true, default_value = "0.1")]
-    pub cutoff: f32,
-    /// `all`, or a list such as s0t2,s1t1
-    #[arg(long, value_name = "LIST", value_parser = Selection::parse, default_value = "all")]
-    pub strategies: Selection,
-    /// Bidirectional, or only the strategies of a path tracer (s ≤ 1) or a light tracer (t ≤ 1)
-    #[arg(long, value_name = "NAME", value_parser = ["bdpt", "pt", "lt"], default_value = "bdpt")]
-    pub integrator: String,
-    /// Russian roulette
-    #[arg(long, value_name = "on|off", action = ArgAction::Set, value_parser = PossibleValuesParser::new(["on", "off"]).map(|word| word == "on"), default_value = "on")]
-    pub roulette: bool,
 }
 
 /// The value of `--strategies`.
 #[derive(Clone, Debug)]
 pub enum Selection {
     All,
+    /// Those that a pilot run suggests.
+    Suggested,
     Listed(Vec<Strategy>),
 }
 
@@ -250,7 +278,12 @@ impl Selection {
         if text == "all" {
             return Ok(Self::All);
         }
-        let parse = |name: &str| Strategy::parse(name).ok_or(format!("'{name}' is no strategy; write `all`, or a list such as s0t2,s1t1"));
+        if text == "suggested" {
+            return Ok(Self::Suggested);
+        }
+        let parse = |name: &str| {
+            Strategy::parse(name).ok_or(format!("'{name}' is no strategy; write `all`, `suggested`, or a list such as s0t2,s1t1"))
+        };
         text.split(',').map(parse).collect::<Result<_, _>>().map(Self::Listed)
     }
 }
@@ -258,6 +291,11 @@ impl Selection {
 fn heuristic_parser() -> impl TypedValueParser<Value = HeuristicKind> {
     PossibleValuesParser::new(HeuristicKind::ALL.map(HeuristicKind::name))
         .map(|name| HeuristicKind::ALL.into_iter().find(|kind| kind.name() == name).unwrap_or(HeuristicKind::Power))
+}
+
+fn sampler_parser() -> impl TypedValueParser<Value = Sampler> {
+    PossibleValuesParser::new(Sampler::ALL.map(Sampler::name))
+        .map(|name| Sampler::ALL.into_iter().find(|sampler| sampler.name() == name).unwrap_or_default())
 }
 
 fn integrator_parser() -> impl TypedValueParser<Value = Integrator> {

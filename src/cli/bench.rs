@@ -81,9 +81,11 @@ fn methods(args: &BenchArgs) -> Vec<Method> {
     for &backend in &args.backends {
         for &heuristic in &args.heuristics {
             for &integrator in &args.integrators {
-                let method = Method { integrator, heuristic, backend };
-                if !methods.contains(&method) {
-                    methods.push(method);
+                for &sampler in &args.samplers {
+                    let method = Method { integrator, heuristic, backend, sampler };
+                    if !methods.contains(&method) {
+                        methods.push(method);
+                    }
                 }
             }
         }

@@ -26,6 +26,9 @@ pub fn run(args: &CheckArgs) -> Result<ExitCode, Failure> {
         ));
     };
     let job = prepare(estimator, false)?.job;
+    if !job.settings.sampler.is_independent() {
+        eprintln!("note: checks rest on independent samples, and use --sampler hash");
+    }
     job.check()?;
     let checks: Vec<Check> = Check::ALL.into_iter().filter(|check| args.only.is_empty() || args.only.contains(check)).collect();
     listen("stopping; what is done follows (Ctrl-C again: at once)")?;

@@ -229,10 +229,11 @@ impl Rendering {
             HeuristicKind::Cutoff => format!("cutoff heuristic at {}", settings.heuristic.cutoff),
             HeuristicKind::Uniform => "uniform weights".to_owned(),
         };
+        let sampler = if settings.sampler.is_independent() { "" } else { " · evenly spread samples" };
         let roulette = if settings.roulette { "" } else { " · no roulette" };
         let hidden = if self.hide { " · some strategies hidden" } else { "" };
         let seeds = self.runs.as_ref().map_or(format!("seed {}", settings.seed), |runs| format!("seeds {}", runs.seeds()));
-        format!("{} · K = {} · {heuristic} · {seeds}{roulette}{hidden}", self.extent(), settings.max_edges)
+        format!("{} · K = {} · {heuristic} · {seeds}{sampler}{roulette}{hidden}", self.extent(), settings.max_edges)
     }
 
     /// Size and samples.

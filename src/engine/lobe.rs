@@ -13,7 +13,6 @@ use crate::bdpt::context::Context;
 use crate::bdpt::vertex::{AT_INFINITY, Vertex};
 use crate::bdpt::{PathRecord, Strategy};
 use crate::math::{Frame, PI, Vec2, Vec3, reflect};
-use crate::rng::SampleId;
 use crate::scene::material::{COAT, CONDUCTOR};
 use crate::scene::{Bsdf, NONE, TransportMode};
 
@@ -47,11 +46,9 @@ pub fn lobe(job: &Job, record: &PathRecord, strategy: Strategy, vertex: usize, g
     }
     let view = job.view();
     let context = Context::new(&job.scene, &view, &job.settings);
-    let [x, y] = record.pixel;
     let mut sample = Sample::default();
     let k = job.settings.max_edges as usize;
-    let id = SampleId { x, y, sample: record.sample, seed: job.settings.seed };
-    sample.trace(&context, id, k + usize::from(view.has_lens()), k + 1);
+    sample.trace(&context, job.settings.sample(record.pixel, record.sample), k + usize::from(view.has_lens()), k + 1);
     // It draws the fresh ends; whether light gets through does not matter here.
     let _ = sample.evaluate(&context, strategy);
     let path: Vec<&Vertex> = sample.light_vertices(strategy).iter().chain(sample.eye_vertices(strategy).iter().rev()).collect();
@@ -130,6 +127,7 @@ pub fn of(bsdf: &Bsdf, mode: TransportMode, [w_in, w_out]: [Vec3; 2], [rings, se
 mod tests {
     use super::*;
     use crate::math::DVec3;
+    use crate::rng::SampleId;
     use crate::scene::{Look, Material, builtin};
     use std::sync::Arc;
 
@@ -184,7 +182,7 @@ mod tests {
                 const COUNT: u32 = 60_000;
                 let (mut sum, mut squares) = (Vec3::ZERO, Vec3::ZERO);
                 for i in 0..COUNT {
-                    let [a, b, c, _] = SampleId { x: i, y: 7, sample: 1, seed: 3 }.numbers(0);
+                    let [a, b, c, _] = SampleId { x: i, y: 7, sample: 1, seed: 3, ..SampleId::default() }.numbers(0);
                     let carried =
                         bsdf.sample(w_in, TransportMode::Radiance, a, Vec2::new(b, c)).map_or(Vec3::ZERO, |x| x.f / x.pdf_fwd_psa);
                     sum += carried;

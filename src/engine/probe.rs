@@ -5,7 +5,6 @@ use crate::bdpt::Strategy;
 use crate::bdpt::connect::{Contribution, Sample};
 use crate::bdpt::context::Context;
 use crate::math::Vec3;
-use crate::rng::SampleId;
 use crate::scene::View;
 
 /// Looks through the samples of one pixel.
@@ -45,7 +44,6 @@ impl<'a> Probe<'a> {
 }
 
 fn trace(traced: &mut Sample, context: &Context, pixel: [u32; 2], sample: u32) {
-    let id = SampleId { x: pixel[0], y: pixel[1], sample, seed: context.settings.seed };
     let k = context.settings.max_edges as usize;
-    traced.trace(context, id, k + usize::from(context.view.has_lens()), k + 1);
+    traced.trace(context, context.settings.sample(pixel, sample), k + usize::from(context.view.has_lens()), k + 1);
 }

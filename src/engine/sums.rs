@@ -28,6 +28,7 @@ impl Job {
         say("lens", if pinhole { "pinhole".to_owned() } else { format!("{:?} m, focus {:?} m", lens.radius, lens.focus_distance) });
         say("estimator", RECORD_VERSION.to_string());
         say("max-edges", settings.max_edges.to_string());
+        say("sampler", settings.sampler.name().to_owned());
         let heuristic = &settings.heuristic;
         say("heuristic", heuristic.kind.name().to_owned());
         match heuristic.kind {
@@ -78,6 +79,7 @@ impl Session {
 mod tests {
     use super::*;
     use crate::bdpt::Heuristic;
+    use crate::rng::Sampler;
     use crate::scene::{Lens, builtin};
     use std::sync::Arc;
 
@@ -102,6 +104,7 @@ mod tests {
         };
         assert_eq!(with(&|_| {}), [""; 0]);
         assert_eq!(with(&|x| x.seed = 7), [""; 0], "a seed is no setting");
+        assert_eq!(with(&|x| x.sampler = Sampler::Sobol), ["sampler"]);
         assert_eq!(with(&|x| x.max_edges = 5), ["max-edges"]);
         assert_eq!(with(&|x| x.roulette = false), ["roulette"]);
         assert_eq!(with(&|x| x.fresh_ends = false), ["fresh-ends"]);

@@ -27,6 +27,8 @@ const FORMAT: u32 = 1;
 const LABEL: &str = "bdpt-explorer";
 /// The layers of the sums.
 const LAYERS: [&str; 2] = ["sum.hi", "sum.lo"];
+/// Settings that the first films did not name, and what they were.
+const UNNAMED: [(&str, &str); 1] = [("sampler", "hash")];
 /// What the names of settings begin with that say what the scene is: their values are digests.
 pub const SCENE: &str = "scene.";
 /// Values longer than this are not quoted.

@@ -124,8 +124,8 @@ shared_struct! {
         pub colors: u32,
         /// [`CANARY`].
         pub canary: u32,
-        /// Padding.
-        pub _pad0: u32,
+        /// One of `SAMPLER_…`.
+        pub sampler: u32,
         /// The strategies that take part: a bit per index.
         pub strategies: [[u32; 4]; 18],
     }
@@ -269,7 +269,7 @@ impl Params {
             uvs: places.uvs,
             colors: places.colors,
             canary: CANARY,
-            _pad0: 0,
+            sampler: settings.sampler as u32,
             strategies: settings.strategies.words(),
         }
     }

@@ -15,6 +15,7 @@ pub const FILES: &[File] = files![
     "types.wgsl",
     "math.wgsl",
     "rng.wgsl",
+    "rng/sobol.wgsl",
     "bindings.wgsl",
     "load.wgsl",
     "scene/alias.wgsl",

@@ -1,4 +1,4 @@
-//! Speed against error: scene × integrator × heuristic × backend, over independent seeds, against a converged reference.
+//! Speed against error: scene × integrator × heuristic × sampler × backend, over independent seeds, against a converged reference.
 //!
 //! ```text
 //! relMSE(a) = mean over pixels and channels of (a − b)²/(b² + ε),  ε = 0.01        (film::difference; a the image, b the reference)
@@ -15,7 +15,7 @@
 //! ```
 //! *Equal samples*: every method has the same samples per pixel. *Equal time*: every method goes on until its cost reaches the
 //! same budget, at the end of a pass. Both are read off the same renderings. Methods take turns, seed by seed, so that what
-//! disturbs the machine disturbs all of them. Seeds are 0, 1, …; the reference has its own, from [`REFERENCE_SEED`] on.
+//! disturbs the machine disturbs all of them. Every interval is over seeds, which are independent under any sampler. Seeds are 0, 1, …; the reference has its own, from [`REFERENCE_SEED`] on.
 //!
 //! There is no FLIP: the one package that has it (nv-flip 0.1.2, 2023) holds a C++ program, so that everyone who builds this one
 //! would need a C++ compiler, and compares only pictures of eight bits. The pictures are written as EXR, for NVIDIA's own tool.
@@ -31,10 +31,11 @@ pub mod tables;
 use crate::bdpt::{Heuristic, HeuristicKind, Settings, StrategySet};
 use crate::engine::{Backend, Job};
 use crate::math::Vec3;
+use crate::rng::Sampler;
 use stats::Error;
 
-/// The reference's first seed; measured are seeds below it.
-pub const REFERENCE_SEED: u32 = 1 << 31;
+pub use crate::engine::REFERENCE_SEED;
+
 /// The seed of what is run to warm up and to find the budget: neither the reference's nor a measured one.
 pub const PILOT_SEED: u32 = REFERENCE_SEED - 1;
 
@@ -81,18 +82,21 @@ pub struct Method {
     pub heuristic: HeuristicKind,
     /// Who renders.
     pub backend: Backend,
+    /// How the samples of a pixel go together.
+    pub sampler: Sampler,
 }
 
 impl Method {
-    /// "bdpt power cpu".
+    /// "bdpt power cpu", "bdpt power cpu sobol".
     pub fn label(&self) -> String {
-        format!("{} {} {}", self.integrator.name(), self.heuristic.name(), self.backend.name())
+        let sampler = if self.sampler.is_independent() { String::new() } else { format!(" {}", self.sampler.name()) };
+        format!("{} {} {}{sampler}", self.integrator.name(), self.heuristic.name(), self.backend.name())
     }
 
     /// The job with this method in the place of its own, at a seed.
     pub fn job(&self, job: &Job, seed: u32) -> Job {
         let heuristic = Heuristic { kind: self.heuristic, ..Heuristic::default() };
-        let settings = Settings { strategies: self.integrator.strategies(), heuristic, seed, ..job.settings };
+        let settings = Settings { strategies: self.integrator.strategies(), heuristic, seed, sampler: self.sampler, ..job.settings };
         Job { settings, backend: self.backend, ..job.clone() }
     }
 }

@@ -4,6 +4,7 @@ use super::state::State;
 use super::text::{LooksText, Text, Words};
 use super::widgets::{finite, labelled};
 use crate::engine::Backend;
+use crate::rng::Sampler;
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{DragValue, PopupCloseBehavior, Ui};
 
@@ -14,6 +15,11 @@ const BACKENDS: &[(Backend, Text, Text)] = &[
     (Backend::Auto, Text::RendererAuto, Text::HelpRendererAuto),
     (Backend::Gpu, Text::RendererGpu, Text::HelpRendererGpu),
     (Backend::Cpu, Text::RendererCpu, Text::HelpRendererCpu),
+];
+
+const SAMPLERS: &[(Sampler, LooksText, LooksText)] = &[
+    (Sampler::Hash, LooksText::SamplerHash, LooksText::HelpSamplerHash),
+    (Sampler::Sobol, LooksText::SamplerSobol, LooksText::HelpSamplerSobol),
 ];
 
 /// A menu that stays open while something in it is changed.
@@ -52,6 +58,13 @@ pub fn contents(ui: &mut Ui, state: &mut State) {
         }
     });
     ui.separator();
+    head(ui, state, LooksText::Sampler, LooksText::HelpSampler);
+    ui.horizontal(|ui| {
+        for (sampler, name, help) in SAMPLERS {
+            let (name, help) = (state.say(*name), state.say(*help));
+            ui.selectable_value(&mut state.settings.sampler, *sampler, name).on_hover_text(help);
+        }
+    });
     let lang = state.prefs.lang;
     ui.horizontal(|ui| {
         labelled(ui, Text::Seed.in_language(lang), Text::HelpSeed.in_language(lang), |ui| {

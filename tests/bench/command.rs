@@ -25,7 +25,7 @@ fn read(path: &Path) -> String {
 fn errors(csv: &str) -> Vec<String> {
     let line = |line: &str| {
         let fields: Vec<&str> = line.split(',').collect();
-        (fields[5] == "curve").then(|| [&fields[..7], &fields[9..]].concat().join(","))
+        (fields[6] == "curve").then(|| [&fields[..8], &fields[10..]].concat().join(","))
     };
     csv.lines().skip(1).filter_map(line).collect()
 }

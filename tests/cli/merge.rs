@@ -89,7 +89,7 @@ fn a_film_shows_its_mean_and_says_what_it_is_of() {
         (&1.into(), &4.into(), &"7..8:4".into(), &"cornell".into())
     );
     let keys: Vec<&str> = said["settings"].as_object().unwrap().keys().map(String::as_str).collect();
-    let expected = "beta crop estimator fresh-ends heuristic integrator lens max-edges roulette scene.cameras scene.lights scene.materials scene.shapes scene.textures shown size strategies";
+    let expected = "beta crop estimator fresh-ends heuristic integrator lens max-edges roulette sampler scene.cameras scene.lights scene.materials scene.shapes scene.textures shown size strategies";
     assert_eq!(keys.join(" "), expected);
     // All seeds are in the other files, too.
     succeed(folder.path(), &format!("render cornell -o film.png --seed-range 7..9 {SMALL} --pyramid p --stats s.json"));
@@ -180,6 +180,7 @@ fn what_does_not_belong_together_is_refused_in_one_line_that_names_it() {
         ("cornell", ("edges 3", "edges 4"), seeds, "max-edges is 3 in the first, 4 in the second"),
         ("cornell", same, "--heuristic balance", "heuristic is power in the first, balance in the second"),
         ("cornell", same, "--beta 1.5", "beta is 2.0 in the first, 1.5 in the second"),
+        ("cornell", same, "--sampler sobol", "sampler is hash in the first, sobol in the second"),
         ("cornell", same, "--roulette off", "roulette is on in the first, off in the second"),
         ("cornell", same, "--integrator pt", "integrator is bdpt in the first, pt in the second"),
         ("cornell", same, "--strategies s1t2,s0t2", "strategies is all in the first, s0t2,s1t2 in the second"),

@@ -5,7 +5,7 @@ use bdpt_explorer::rng::SampleId;
 
 /// Four numbers in [0, 1), the i-th of a stream.
 pub fn random(stream: u32, i: usize) -> [f32; 4] {
-    SampleId { x: 0, y: 0, sample: i as u32, seed: stream }.numbers(0)
+    SampleId { x: 0, y: 0, sample: i as u32, seed: stream, ..SampleId::default() }.numbers(0)
 }
 
 /// A unit vector.

@@ -9,6 +9,7 @@ use bdpt_explorer::engine::{Crop, Job};
 use bdpt_explorer::film::Film;
 use bdpt_explorer::gpu::{Gpu, Kernels, Layouts, Renderer, Specialisation, shader::Source};
 use bdpt_explorer::math::Vec3;
+use bdpt_explorer::rng::Sampler;
 use bdpt_explorer::scene::edit::{self, LampEdit, MaterialEdit};
 use bdpt_explorer::scene::{Pose, Scene, SceneEdits};
 use pollster::block_on;
@@ -49,9 +50,9 @@ fn the_same_seed_gives_the_same_picture() {
     let plain = Settings { max_edges: 5, seed: 7, ..Settings::default() };
     let variants = [
         plain,
-        Settings { roulette: false, heuristic: heuristic(HeuristicKind::Max, 2.0), ..plain },
+        Settings { roulette: false, sampler: Sampler::Sobol, heuristic: heuristic(HeuristicKind::Max, 2.0), ..plain },
         Settings { fresh_ends: false, heuristic: heuristic(HeuristicKind::Cutoff, 2.0), ..plain },
-        Settings { heuristic: heuristic(HeuristicKind::Power, 1.3), max_edges: 8, ..plain },
+        Settings { sampler: Sampler::Sobol, heuristic: heuristic(HeuristicKind::Power, 1.3), max_edges: 8, ..plain },
         Settings {
             heuristic: heuristic(HeuristicKind::Uniform, 2.0),
             strategies: StrategySet::where_(|x| (x.s + 2 * x.t) % 3 > 0),
@@ -74,6 +75,9 @@ fn the_same_seed_gives_the_same_picture() {
     // The control: another seed gives another picture.
     let other = |seed| work(scenes::builtin("cornell"), 24, Settings { seed, ..plain });
     assert!(agreement(&other(1), &other(1).on_gpu(gpu, 4).0, &other(2).on_cpu(4).0) < 0.7);
+    // And so does another sampler.
+    let sobol = work(scenes::builtin("cornell"), 24, Settings { seed: 1, sampler: Sampler::Sobol, ..plain });
+    assert!(agreement(&sobol, &sobol.on_gpu(gpu, 4).0, &other(1).on_cpu(4).0) < 0.7);
 }
 
 /// A scene with edits is one like any other: a lamp moved (its hierarchy only refitted), a wall made metal, a camera elsewhere.

@@ -34,7 +34,7 @@ fn body() -> String {
             {b}
             let s = in_u(row, {at}u);
             let t = in_u(row, {at}u + 1u);
-            let id = SampleId(in_u(row, {at}u + 2u), in_u(row, {at}u + 3u), in_u(row, {at}u + 4u), in_u(row, {at}u + 5u));
+            let id = SampleId(in_u(row, {at}u + 2u), in_u(row, {at}u + 3u), in_u(row, {at}u + 4u), in_u(row, {at}u + 5u), SAMPLER_HASH);
             let opacity_a = in_f(row, {at}u + 6u);
             let opacity_b = in_f(row, {at}u + 7u);
             for (var i = 0u; i < {ROOM}u; i++) {{
@@ -104,7 +104,7 @@ impl Join {
 
     fn row(&self) -> Vec<f32> {
         let mut row: Vec<f32> = bytemuck::cast_slice(&[self.a, self.b]).to_vec();
-        let SampleId { x, y, sample, seed } = self.id;
+        let SampleId { x, y, sample, seed, .. } = self.id;
         row.extend([self.strategy.s, self.strategy.t, x, y, sample, seed].map(bits));
         row.extend(self.opacity);
         row.extend(&self.sides);
@@ -169,7 +169,7 @@ fn joins(gpu: &Gpu, scene: Arc<Scene>, change: Option<(&str, &str)>) -> ([usize;
     let context = Context::new(&work.job.scene, &work.view, &work.job.settings);
     let (mut list, mut sample) = (Vec::new(), Sample::default());
     for i in 0..2 * SIDE * SIDE {
-        let id = SampleId { x: i % SIDE, y: i / SIDE % SIDE, sample: i / (SIDE * SIDE), seed: 5 };
+        let id = context.settings.sample([i % SIDE, i / SIDE % SIDE], i / (SIDE * SIDE));
         sample.trace(&context, id, EDGES as usize, EDGES as usize + 1);
         let strategies = Strategy::all(EDGES, context.view.has_lens());
         list.extend(strategies.filter_map(|strategy| Join::new(&context, &mut sample, strategy)));

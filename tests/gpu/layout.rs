@@ -78,6 +78,8 @@ fn constants() -> Vec<(&'static str, u32)> {
         ("BLOCK_SPLAT", rng::BLOCK_SPLAT),
         ("BLOCK_FRESH_PLACE", rng::BLOCK_FRESH_PLACE),
         ("BLOCK_ALPHA", rng::BLOCK_ALPHA),
+        ("SAMPLER_HASH", rng::Sampler::Hash as u32),
+        ("SAMPLER_SOBOL", rng::Sampler::Sobol as u32),
         ("ON_LENS", vertex::ON_LENS),
         ("ON_LIGHT", vertex::ON_LIGHT),
         ("ON_SURFACE", vertex::ON_SURFACE),

@@ -179,7 +179,7 @@ impl Stepped {
 /// Is the draw for something along a ray within the margin of its alpha?
 fn alpha_is_marginal(scene: &Scene, ray: &Ray, [a, b, c, d]: [u32; 4]) -> bool {
     let near = std::cell::Cell::new(false);
-    scene.bvh.closest_hit_where(&scene.triangles, ray, |hit| {
+    scene.bvh.closest_hit_where(ray, |hit| {
         let alpha = scene.opacity(hit);
         let drawn = unit_f32(pcg4d([a, b, c, d ^ hit.triangle])[0]);
         near.set(near.get() || (alpha < 1.0 && (drawn - alpha).abs() < MARGIN));
@@ -237,7 +237,7 @@ fn work(scene: Arc<Scene>) -> Work {
 fn all_steps(context: &Context) -> Vec<Stepped> {
     let mut list = Vec::new();
     for i in 0..SIDE * SIDE {
-        let id = SampleId { x: i % SIDE, y: i / SIDE, sample: 2, seed: 11 };
+        let id = context.settings.sample([i % SIDE, i / SIDE], 2);
         steps(context, Importance, id, 8, &mut list);
         steps(context, Radiance, id, 9, &mut list);
     }

@@ -8,7 +8,7 @@ use bdpt_explorer::bdpt::context::Context;
 use bdpt_explorer::bdpt::{Settings, Subpath};
 use bdpt_explorer::engine::Job;
 use bdpt_explorer::gpu::Gpu;
-use bdpt_explorer::rng::SampleId;
+use bdpt_explorer::rng::Sampler;
 use bdpt_explorer::scene::Scene;
 use bdpt_explorer::scene::TransportMode::{Importance, Radiance};
 use std::sync::Arc;
@@ -17,9 +17,12 @@ const SIZE: u32 = 64;
 
 /// The shares of light and eye subpaths that are the same.
 fn identical(gpu: &Gpu, scene: Arc<Scene>, max_edges: u32, change: Option<(&str, &str)>) -> [f64; 2] {
-    let work = Work::new(Job { size: [SIZE; 2], settings: Settings { max_edges, seed: 3, ..Settings::default() }, ..Job::new(scene) });
+    let settings = Settings { max_edges, seed: 3, ..Settings::default() };
+    let work = Work::new(Job { size: [SIZE; 2], settings, ..Job::new(scene) });
     let context = Context::new(&work.job.scene, &work.view, &work.job.settings);
-    let ids = (0..SIZE * SIZE).map(|i| SampleId { x: i % SIZE, y: i / SIZE, sample: 5, seed: 3 });
+    // Either sampler, in turn.
+    let own = |i: u32| Settings { sampler: Sampler::ALL[(i % SIZE + i / SIZE) as usize % 2], ..settings };
+    let ids = (0..SIZE * SIZE).map(|i| own(i).sample([i % SIZE, i / SIZE], 5));
     let row = |id| {
         [(Importance, max_edges), (Radiance, max_edges + 1)].map(|(mode, max_vertices)| Row { ask: Ask::Walk, mode, id, max_vertices })
     };

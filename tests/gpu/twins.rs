@@ -15,7 +15,8 @@ use bdpt_explorer::math::{
     Frame, Vec2, Vec3, cube_root, direction_at, direction_between, geometry_term, offset_ray_origin, reflect, refract,
     sample_cosine_hemisphere, sample_disk, sample_sphere, sample_triangle, sin_cos_turn, turn_of, versine,
 };
-use bdpt_explorer::rng::{SampleId, pcg4d, unit_f32};
+use bdpt_explorer::rng::sobol::{sobol_point, sobol_words};
+use bdpt_explorer::rng::{SampleId, Sampler, pcg4d, unit_f32};
 
 /// Any scene: these functions do not read it.
 fn work() -> Work {
@@ -30,33 +31,46 @@ fn words(row: &[f32]) -> Vec<u32> {
 fn random_numbers_are_the_same_bits() {
     let Some(gpu) = gpu("random_numbers_are_the_same_bits") else { return };
     let body = "fn run_row(row: u32) {
-        let id = SampleId(in_u(row, 0u), in_u(row, 1u), in_u(row, 2u), in_u(row, 3u));
-        let w = words(id, in_u(row, 4u));
-        for (var i = 0u; i < 4u; i++) { out_u(row, i, w[i]); }
-        let n = numbers(id, in_u(row, 4u));
-        for (var i = 0u; i < 4u; i++) { out_f(row, 4u + i, n[i]); }
-        out_f(row, 8u, unit_f32(w.y));
+        let block = in_u(row, 4u);
+        let id = SampleId(in_u(row, 0u), in_u(row, 1u), in_u(row, 2u), in_u(row, 3u), in_u(row, 5u));
+        let w = words(id, block);
+        let n = numbers(id, block);
+        let h = hashed(id, block);
+        let p = sobol_point(id.sample);
+        let s = sobol_words(block, w);
+        for (var i = 0u; i < 4u; i++) {
+            out_u(row, i, w[i]);
+            out_f(row, 4u + i, n[i]);
+            out_f(row, 8u + i, h[i]);
+            out_u(row, 12u + i, p[i]);
+            out_u(row, 16u + i, s[i]);
+        }
     }";
-    let inputs: Vec<[u32; 5]> = (0..4096u32)
+    let inputs: Vec<[u32; 6]> = (0..8192u32)
         .map(|i| {
             let [a, b, c, d] = pcg4d([i, 1, 2, 3]);
-            if i < 8 { [i, 0xffff - i, 0, 0, i] } else { [a & 0xffff, b & 0xffff, if i % 2 == 0 { c } else { c & 255 }, d, a >> 22] }
+            let [x, y, sample, seed, block] =
+                if i < 8 { [i, 0xffff - i, 0, 0, i] } else { [a & 0xffff, b & 0xffff, if i % 2 == 0 { c } else { c & 255 }, d, a >> 22] };
+            [x, y, sample, seed, block, i / 2 % 2]
         })
         .collect();
     let table: Vec<f32> = inputs.iter().flatten().map(|&word| bits(word)).collect();
     let work = work();
     let run = |change| {
-        let out = Table { gpu, work: &work, change }.run(body, 5, 9, &table);
+        let out = Table { gpu, work: &work, change }.run(body, 6, 20, &table);
         let mut worst = Worst::new("random numbers", 0.0);
-        for (row, &[x, y, sample, seed, block]) in out.iter().zip(&inputs) {
-            let id = SampleId { x, y, sample, seed };
-            let (w, n) = (id.words(block), id.numbers(block));
-            worst.exact(&words(row), &[&w[..], &words(&n), &[unit_f32(w[1]).to_bits()]].concat());
+        for (row, &[x, y, sample, seed, block, sampler]) in out.iter().zip(&inputs) {
+            let id = SampleId { x, y, sample, seed, sampler: Sampler::ALL[sampler as usize] };
+            let (w, n, h) = (id.words(block), id.numbers(block), id.words(block).map(unit_f32));
+            worst.exact(&words(row), &[&w[..], &words(&n), &words(&h), &sobol_point(sample), &sobol_words(block, w)].concat());
         }
         worst
     };
     run(None).finish();
-    assert!(!run(Some(("1664525u", "1664527u"))).holds(), "another multiplier goes unnoticed");
+    let changes = [("1664525u", "1664527u"), ("0x53a22864u", "0x53a22866u"), ("select(id.sample, KEYS, spread)", "id.sample")];
+    for change in changes {
+        assert!(!run(Some(change)).holds(), "{change:?} goes unnoticed");
+    }
 }
 
 const MATH: &str = "fn run_row(row: u32) {

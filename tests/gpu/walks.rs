@@ -13,7 +13,7 @@ use bdpt_explorer::scene::TransportMode;
 pub const ROOM: usize = 10;
 
 const VERTEX: usize = size_of::<Vertex>() / 4;
-const INPUTS: usize = VERTEX + 7 + 8;
+const INPUTS: usize = VERTEX + 7 + 9;
 const OUTPUTS: usize = VERTEX + 7 + 3 + 2 + 2 * ROOM;
 
 /// What a row asks for.
@@ -71,7 +71,7 @@ fn body() -> String {
             // A step's padding is nobody's.
             {step}
             let first = {at}u + 7u;
-            let id = SampleId(in_u(row, first), in_u(row, first + 1u), in_u(row, first + 2u), in_u(row, first + 3u));
+            let id = SampleId(in_u(row, first), in_u(row, first + 1u), in_u(row, first + 2u), in_u(row, first + 3u), in_u(row, first + 8u));
             let mode = in_u(row, first + 4u);
             var count = in_u(row, first + 5u) + 1u;
             let most = in_u(row, first + 6u);
@@ -135,7 +135,7 @@ pub fn ask(gpu: &Gpu, work: &Work, rows: &[Row], change: Option<(&str, &str)>) -
         table.push(step.pdf_fwd_psa);
         table.extend(step.alpha.to_array());
         let mode = u32::from(*mode == TransportMode::Importance);
-        table.extend([id.x, id.y, id.sample, id.seed, mode, last, *max_vertices, code].map(bits));
+        table.extend([id.x, id.y, id.sample, id.seed, mode, last, *max_vertices, code, id.sampler as u32].map(bits));
     }
     let out = Table { gpu, work, change }.run(&body(), INPUTS, OUTPUTS, &table);
     out.iter().map(|row| answer(row)).collect()

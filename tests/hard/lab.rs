@@ -63,7 +63,7 @@ pub fn each_sample(job: &Job, samples: u32, mut visit: impl FnMut(&Context, &mut
     let (k, lens) = (settings.max_edges as usize, usize::from(view.has_lens()));
     let ([width, height], mut sample) = (job.size, Sample::default());
     for n in 0..samples {
-        let id = SampleId { x: n % width, y: n / width % height, sample: n / (width * height), seed: settings.seed };
+        let id = SampleId { x: n % width, y: n / width % height, sample: n / (width * height), seed: settings.seed, ..SampleId::default() };
         sample.trace(&context, id, k + lens, k + 1);
         visit(&context, &mut sample);
     }

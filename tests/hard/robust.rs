@@ -10,6 +10,7 @@ use bdpt_explorer::math::Vec3;
 use bdpt_explorer::report::check::Control;
 use bdpt_explorer::report::check::pairwise::sweep;
 use bdpt_explorer::report::check::sweep::{Budget, Task};
+use bdpt_explorer::rng::Sampler;
 use bdpt_explorer::scene::Scene;
 use bdpt_explorer::task::block_on;
 use std::sync::Arc;
@@ -48,7 +49,8 @@ fn all(every: bool) -> u32 {
                 for &max_edges in lengths {
                     let heuristic = Heuristic { kind, beta: [2.0, 8.0, 0.5][n % 3], ..Heuristic::default() };
                     let (roulette, fresh_ends) = ((i + n) % 4 > 0, (i + j) % 3 > 0);
-                    let settings = Settings { max_edges, heuristic, strategies, roulette, fresh_ends, seed: count };
+                    let sampler = Sampler::ALL[(i + j + n) % 2];
+                    let settings = Settings { max_edges, heuristic, strategies, roulette, fresh_ends, seed: count, sampler };
                     assert_eq!(wrong(scene, settings), 0, "{} {settings:?}", scene.name);
                     count += 1;
                 }

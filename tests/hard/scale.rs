@@ -117,7 +117,7 @@ fn a_scene_of_any_size_at_any_place_is_the_same_picture() {
 /// Rays from walls of a closed room: how many meet the wall they leave, and how many meet nothing.
 fn astray(scale: f64, start: fn(Vec3, f32, Vec3, Vec3) -> Vec3) -> u32 {
     let scene = scenes::furnace_at(1.0, 0.5, scale, 0.0);
-    let number = |i: u32, block| SampleId { x: i & 1023, y: i >> 10, sample: 0, seed: 8 }.numbers(block);
+    let number = |i: u32, block| SampleId { x: i & 1023, y: i >> 10, sample: 0, seed: 8, ..SampleId::default() }.numbers(block);
     let wrong = |i: u32| {
         let (u, v) = (number(i, 0), number(i, 1));
         let b = bdpt_explorer::math::sample_triangle(pair(u, 0));

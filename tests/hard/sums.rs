@@ -8,7 +8,7 @@ use crate::stats::z_limit;
 use bdpt_explorer::bdpt::context::Context;
 use bdpt_explorer::bdpt::render::splat_quantum;
 use bdpt_explorer::bdpt::{Settings, Strategy};
-use bdpt_explorer::film::{Film, Layers};
+use bdpt_explorer::film::{Film, Layers, SplatBatch};
 use bdpt_explorer::gpu::MOST_PASSES;
 use bdpt_explorer::math::Vec3;
 use bdpt_explorer::rng::{pcg4d, unit_f32};
@@ -75,17 +75,18 @@ fn pixels_keep_their_mean_over_ten_million_samples() {
 fn splats_keep_their_mean_over_ten_million_samples() {
     let quantum = (-12.0f32).exp2();
     let mut film = Film::new([1, 1], Layers { pixel: 1, splat: 1 }, quantum);
-    let (mut exact, mut cut) = (Exact::default(), 0.0f64);
+    let (mut exact, mut cut, mut batch) = (Exact::default(), 0.0f64, SplatBatch::default());
     // Eight samples to a pass: what is folded are integers of any size.
     for first in (0..SAMPLES).step_by(8) {
         let (mut rows, splats) = film.rows(&[0]);
         for n in first..first + 8 {
             let (value, words) = value(n);
-            assert!(splats.add([0, 0], 0, Vec3::from(value), [words[1], words[2], words[3]].map(unit_f32)));
+            splats.add(&mut batch, [0, 0], 0, Vec3::from(value), [words[1], words[2], words[3]].map(unit_f32));
             rows[0].count_sample();
             exact.add(value);
             cut += f64::from((value[0] / quantum).floor() * quantum);
         }
+        assert_eq!(splats.take(&mut batch), 0);
         drop(rows);
         film.fold();
     }

@@ -140,7 +140,7 @@ fn weights_of_many_million_sampled_paths_keep_to_their_last_places() {
 /// A path of 1 to 64 edges of random densities 10^±`spread`, and the strategy that made it; now and then a Dirac, and a density of
 /// another strategy that is genuinely 0.
 fn random_path(n: u32, spread: f32) -> (FullPath, usize) {
-    let u = |block: u32| SampleId { x: n & 0xffff, y: n >> 16, sample: 1, seed: 4 }.numbers(block);
+    let u = |block: u32| SampleId { x: n & 0xffff, y: n >> 16, sample: 1, seed: 4, ..SampleId::default() }.numbers(block);
     let mut path = FullPath::new();
     path.k = 1 + (u(0)[0] * if n.is_multiple_of(4) { 64.0 } else { 10.0 }) as usize;
     let s = (u(0)[1] * (path.k + 2) as f32) as usize;

@@ -129,14 +129,14 @@ fn what_a_walk_accepts_does_not_depend_on_the_traversal() {
     let scene = surface_scenes::veils(false);
     let (mut met, mut passed) = (0, 0);
     for i in 0..20_000u32 {
-        let u = SampleId { x: i & 255, y: i >> 8, sample: 0, seed: 3 }.numbers(0);
+        let u = SampleId { x: i & 255, y: i >> 8, sample: 0, seed: 3, ..SampleId::default() }.numbers(0);
         let origin = Vec3::new(u[0] - 0.5, 0.8 * u[1], u[2] + 1.5);
         let direction = (Vec3::new(u[3] - 0.5, 0.3 - u[0], u[1] - 0.5) - origin).normalize();
         let draws = Draws([i, 7, 9, 11]);
         let accepted = scene.walk::<General>(&Ray { origin, direction }, || draws).point;
         // By brute force: of all hits in order of distance, the first whose own number is below its alpha.
         let mut hits = Vec::new();
-        let _ = scene.bvh.any_hit_to_infinity(&scene.triangles, &Ray { origin, direction }, |hit| {
+        let _ = scene.bvh.any_hit_to_infinity(&Ray { origin, direction }, |hit| {
             hits.push(*hit);
             bdpt_explorer::scene::bvh::Visit::Ignore
         });

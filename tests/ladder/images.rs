@@ -5,6 +5,7 @@ use crate::{emitters_scenes, scenes, surface_scenes};
 use bdpt_explorer::bdpt::{Heuristic, HeuristicKind, Settings, Strategy, StrategySet};
 use bdpt_explorer::engine::{Crop, Job, Session};
 use bdpt_explorer::math::Vec3;
+use bdpt_explorer::rng::Sampler;
 use bdpt_explorer::scene::Scene;
 use std::sync::Arc;
 use std::time::Duration;
@@ -215,14 +216,14 @@ fn records_add_up_to_the_image() {
     let more = [surface_scenes::textured(), surface_scenes::veils(true)];
     let scenes = [scenes::builtin("cornell-spheres"), emitters_scenes::furnace_with_lens(1.0, 0.7), emitters_scenes::everything()];
     for scene in scenes.into_iter().chain(more) {
-        on_lens += add_up(&scene);
+        on_lens += Sampler::ALL.map(|sampler| add_up(&scene, sampler)).iter().sum::<usize>();
     }
     assert!(on_lens >= 5, "{on_lens} contributions of t = 0 are too few to mean anything");
 }
 
 /// Holds one sample's image against the sum of all its records; returns how many of their entries were of t = 0.
-fn add_up(scene: &Arc<Scene>) -> usize {
-    let job = job(scene, [16, 12], Settings { max_edges: 4, seed: 9, ..Settings::default() });
+fn add_up(scene: &Arc<Scene>, sampler: Sampler) -> usize {
+    let job = job(scene, [16, 12], Settings { max_edges: 4, seed: 9, sampler, ..Settings::default() });
     let image = rendered(job.clone(), 1).image();
     let (mut sum, mut on_lens) = (vec![Vec3::ZERO; image.len()], 0);
     for y in 0..12 {

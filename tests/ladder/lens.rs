@@ -25,7 +25,7 @@ fn the_lens_is_sampled_as_it_says() {
     let scene = defocused_lamp();
     let view = job(&scene, [48, 32], Settings::default()).view();
     assert!((view.pdf_lens_area() * std::f32::consts::PI * 0.04 - 1.0).abs() < 1e-6);
-    let numbers = |i: u32, block| SampleId { x: i & 0xffff, y: i >> 16, sample: 0, seed: 6 }.numbers(block);
+    let numbers = |i: u32, block| SampleId { x: i & 0xffff, y: i >> 16, sample: 0, seed: 6, ..SampleId::default() }.numbers(block);
     let uniform = |squeeze: f32| {
         let mut observed = vec![0u64; 64];
         for i in 0..200_000 {

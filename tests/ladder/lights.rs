@@ -14,7 +14,7 @@ const LEVEL: f64 = 1e-3 / TESTS as f64;
 const N: u32 = 400_000;
 
 fn numbers(i: u32, block: u32) -> [f32; 4] {
-    SampleId { x: i & 1023, y: i >> 10, sample: 9, seed: 21 }.numbers(block)
+    SampleId { x: i & 1023, y: i >> 10, sample: 9, seed: 21, ..SampleId::default() }.numbers(block)
 }
 
 /// The part of a full turn of a point, in [0, 1).

@@ -10,6 +10,7 @@ mod lens;
 mod lights;
 mod normals;
 mod replay;
+mod samplers;
 mod sampling;
 mod scenes;
 mod shapes;

@@ -15,7 +15,7 @@ const Z_BINS: usize = 16;
 const PHI_BINS: usize = 24;
 
 pub fn numbers(i: u32, block: u32) -> [f32; 4] {
-    SampleId { x: i & 1023, y: i >> 10, sample: 5, seed: 11 }.numbers(block)
+    SampleId { x: i & 1023, y: i >> 10, sample: 5, seed: 11, ..SampleId::default() }.numbers(block)
 }
 
 /// p-value of directions against a density per solid angle; `None` counts as absorbed, and so does what the density lacks.
@@ -120,7 +120,7 @@ fn eye_subpaths_start_uniformly_in_their_pixel() {
     let context = Context::new(&scene, &view, &settings);
     let mut subpath = Subpath::new();
     let mut in_pixel = |i: u32| {
-        let id = SampleId { x: 599 - i % 3, y: i % 400, sample: i / 1200, seed: 4 };
+        let id = SampleId { x: 599 - i % 3, y: i % 400, sample: i / 1200, seed: 4, ..SampleId::default() };
         let raster = context.eye_subpath(id, 1, &mut subpath, &mut 0);
         assert_eq!(view.pixel(raster), Some([id.x, id.y]));
         raster - Vec2::new(id.x as f32, id.y as f32)

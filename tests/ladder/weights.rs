@@ -10,7 +10,7 @@ const KINDS: [HeuristicKind; 5] =
 
 /// A path of random densities 10^±`spread`, random Diracs and a genuine zero now and then.
 fn random_path(n: u32, spread: f32) -> FullPath {
-    let u = |block: u32| SampleId { x: n & 0xffff, y: n >> 16, sample: 0, seed: 2 }.numbers(block);
+    let u = |block: u32| SampleId { x: n & 0xffff, y: n >> 16, sample: 0, seed: 2, ..SampleId::default() }.numbers(block);
     let mut path = FullPath::new();
     path.k = 1 + (u(0)[0] * 10.0) as usize;
     let mut before = false;

@@ -70,7 +70,6 @@ fn a_splits_contribution_is_what_its_strategy_computes_itself() {
     use bdpt_explorer::bdpt::connect::Sample;
     use bdpt_explorer::bdpt::context::Context;
     use bdpt_explorer::bdpt::replay::replay;
-    use bdpt_explorer::rng::SampleId;
     let mut compared = 0;
     for name in ["cornell", "rough-metal", "bokeh"] {
         let job = Job { size: SIZE, ..Job::new(Arc::new(builtin::open(name).expect("a built-in scene opens"))) };
@@ -81,7 +80,7 @@ fn a_splits_contribution_is_what_its_strategy_computes_itself() {
             let record = engine::record(&job, pixel, sample).expect("a record");
             let mut traced = Sample::default();
             let k = job.settings.max_edges as usize;
-            let id = SampleId { x: pixel[0], y: pixel[1], sample, seed: job.settings.seed };
+            let id = job.settings.sample(pixel, sample);
             traced.trace(&context, id, k + usize::from(view.has_lens()), k + 1);
             for entry in record.strategies.iter().filter(|x| x.feasible) {
                 traced.evaluate(&context, entry.strategy()).expect("it carries light");

@@ -2,10 +2,12 @@
 
 use super::*;
 use bdpt_explorer::engine::{Backend, Notice};
+use bdpt_explorer::rng::Sampler;
 use bdpt_explorer::scene::Lens;
 use bdpt_explorer::ui::state::State;
+use bdpt_explorer::ui::text::Words;
 
-fn choose(window: &mut Harness<'static, App>, lang: Lang, name: Text) {
+fn choose(window: &mut Harness<'static, App>, lang: Lang, name: impl Words) {
     rendering_menu(window, lang);
     click(window, Role::Button, name.in_language(lang));
     window.key_press(Key::Escape);
@@ -87,6 +89,32 @@ fn the_status_bar_says_who_renders_and_what_fell_back() {
 /// Does the picture belong to what was asked for last?
 fn fresh(app: &App) -> bool {
     app.live().frame().is_some_and(|f| app.live().engine().is_some_and(|e| e.generation() == f.generation))
+}
+
+/// What is selected is then a sample of the other kind, and there is no interval where samples are not independent.
+#[test]
+fn another_sampler_starts_again_and_is_in_records_and_links() {
+    let mut window = cornell();
+    let sampler = |window: &Harness<'static, App>| window.state().live().engine().expect("an engine").job().settings.sampler;
+    let interval = |app: &App| app.live().frame().is_some_and(|frame| frame.intervals.is_some());
+    let link = |window: &Harness<'static, App>| bdpt_explorer::ui::link::text(window.state().state(), window.state().live());
+    assert_eq!(sampler(&window), Sampler::Hash);
+    until(&mut window, "an interval", interval);
+    for lang in [Lang::En, Lang::Zh] {
+        window.state_mut().state_mut().prefs.lang = lang;
+        window.run_steps(3);
+        let before = generation(&window);
+        choose(&mut window, lang, LooksText::SamplerSobol);
+        assert_eq!((sampler(&window), generation(&window)), (Sampler::Sobol, before + 1));
+        until(&mut window, "many passes", |app| fresh(app) && app.live().frame().is_some_and(|frame| frame.stats.spp >= 8.0));
+        assert!(!interval(window.state()) && link(&window).contains("&sampler=sobol"));
+        assert_record(&window);
+        choose(&mut window, lang, LooksText::SamplerHash);
+        assert_eq!((sampler(&window), generation(&window)), (Sampler::Hash, before + 2));
+        assert!(!link(&window).contains("sampler"));
+        assert_record(&window);
+        until(&mut window, "an interval", |app| fresh(app) && interval(app));
+    }
 }
 
 #[test]

@@ -13,7 +13,6 @@ use crate::bdpt::strategy::Strategy;
 use crate::bdpt::vertex::{AT_INFINITY, AT_POINT, DISCRETE, ON_LENS, ON_LIGHT, Subpath, Vertex};
 use crate::bdpt::visibility::segment;
 use crate::math::Vec3;
-use crate::rng::SampleId;
 use crate::scene::light::{AREA, ENVIRONMENT};
 use crate::scene::material::{COAT, CONDUCTOR, DIELECTRIC, THIN_DIELECTRIC};
 use crate::scene::{Material, NONE, Scene};
@@ -22,7 +21,7 @@ use std::f64::consts::LN_10;
 /// Re-runs sample `sample` of `pixel` and writes down everything about it. The caller sees to it that the pixel exists.
 pub fn record(context: &Context, pixel: [u32; 2], sample: u32) -> PathRecord {
     let (scene, settings) = (context.scene, context.settings);
-    let id = SampleId { x: pixel[0], y: pixel[1], sample, seed: settings.seed };
+    let id = settings.sample(pixel, sample);
     let mut traced = Sample::default();
     let k = settings.max_edges as usize;
     let lens = context.view.has_lens();
@@ -38,6 +37,7 @@ pub fn record(context: &Context, pixel: [u32; 2], sample: u32) -> PathRecord {
         pixel,
         sample,
         seed: settings.seed,
+        sampler: settings.sampler,
         size: context.view.size,
         lens_radius: context.view.lens.radius,
         focus_distance: Some(context.view.lens.focus_distance).filter(|d| lens && d.is_finite()),

@@ -2,7 +2,7 @@
 
 use super::super::runs::Runs;
 use super::super::save::Window;
-use super::{About, FORMAT, LABEL, LAYERS, Label, Sums, SumsError, facts_of};
+use super::{About, FORMAT, LABEL, LAYERS, Label, Sums, SumsError, UNNAMED, facts_of};
 use crate::film::Rect;
 use ::exr::block::reader::Reader;
 use ::exr::meta::header::Header;
@@ -94,7 +94,11 @@ fn about_of(headers: &[Header]) -> Result<About, Flaw> {
             return Err(Flaw::Other(format!("is not as it was written: {name} is missing, or no longer 32-bit floats; render it again")));
         }
     }
-    Ok(About { scene: label.scene, window, facts: label.settings, runs })
+    let mut facts = label.settings;
+    for (name, value) in UNNAMED {
+        facts.entry(name.to_owned()).or_insert_with(|| value.to_owned());
+    }
+    Ok(About { scene: label.scene, window, facts, runs })
 }
 
 /// The text in the header.

@@ -106,7 +106,8 @@ fn reference(wanted: &Wanted, control: &mut Control) -> Result<Option<Reference>
         Source::Given(reference) => return Ok(Some(reference.clone())),
         Source::Rendered(spp) => (spp / PARTS).max(1),
     };
-    let method = Method { integrator: Integrator::Bdpt, heuristic: crate::bdpt::HeuristicKind::Power, backend: Backend::Cpu };
+    let (heuristic, sampler) = (crate::bdpt::HeuristicKind::Power, crate::rng::Sampler::Hash);
+    let method = Method { integrator: Integrator::Bdpt, heuristic, backend: Backend::Cpu, sampler };
     let (mut parts, mut cpu) = (Vec::new(), 0.0);
     for part in 0..PARTS {
         let mut session = Session::new(method.job(&wanted.job, REFERENCE_SEED + part))?;

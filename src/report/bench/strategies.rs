@@ -3,7 +3,8 @@
 //! ```text
 //! variance    V_{s,t} = n · mean over pixels and channels of Var_S(C_{s,t})/(b² + ε)      C_{s,t} the weighted image after n samples per
 //!             pixel, Var_S its unbiased variance over S seeds: the relative variance of one sample per pixel, in relMSE's measure, so that
-//!             relMSE · n of an image ≈ its V. Strategies share subpaths: V of the image is Σ V_{s,t} + 2 Σ of their covariances
+//!             relMSE · n of an image ≈ its V (of samples that are not independent: n times the variance at this n, whatever one sample's
+//!             is). Strategies share subpaths: V of the image is Σ V_{s,t} + 2 Σ of their covariances
 //! cost        c_{s,t}: time of one thread for one try, s, timed by itself: batches of traced pairs of subpaths are joined by this strategy
 //!             alone (ends, visibility, densities, weight), the batch's time over its pairs, and of all batches the median. Walking
 //!             the subpaths is timed apart, since all strategies share it; adding to the film is in neither.
@@ -19,7 +20,6 @@ use crate::bdpt::context::Context;
 use crate::engine::{Job, JobError, Session};
 use crate::film::difference::EPSILON;
 use crate::math::Vec3;
-use crate::rng::SampleId;
 use crate::scene::{Matte, Opaque, Shape};
 use std::sync::atomic::Ordering::Relaxed;
 use web_time::Instant;
@@ -183,8 +183,7 @@ fn costs_as<F: Shape>(context: &Context<F>, strategies: &[Strategy]) -> Costs {
         for (number, sample) in (0..).zip(&mut samples) {
             // Pixels all over the film: a prime step through it.
             let at = ((u64::from(batch * BATCH + number) * 7919) % (u64::from(width) * u64::from(height))) as u32;
-            let id = SampleId { x: at % width, y: at / width, sample: batch, seed: context.settings.seed };
-            sample.trace(context, id, light, eye);
+            sample.trace(context, context.settings.sample([at % width, at / width], batch), light, eye);
         }
         walks.push(start.elapsed().as_secs_f64());
         for ((&strategy, times), rays) in strategies.iter().zip(&mut tries).zip(&mut rays) {

@@ -149,6 +149,9 @@ fn reason(scene: &SceneResult, method: &MethodResult, [slope, less_noise]: [Inte
             "rare bright samples: {percent:.0} % of the error lies in 0.1 % of the pixels, so few samples look better than they are"
         );
     }
+    if !method.method.sampler.is_independent() && slope.mean < -1.0 {
+        return "evenly spread samples: the error falls faster than that of independent ones".to_owned();
+    }
     match slope.half {
         Some(half) if (slope.mean + 1.0).abs() <= half => "−1 lies in the interval: more seeds would tell".to_owned(),
         _ => "not known".to_owned(),
@@ -162,6 +165,7 @@ pub(super) mod tests {
     use super::*;
     use crate::bdpt::HeuristicKind;
     use crate::engine::Backend;
+    use crate::rng::Sampler;
 
     /// A scene with one method whose relMSE at n samples is `error(seed, n)`.
     pub fn scene(noise: Option<f64>, error: impl Fn(u32, f64) -> f64) -> SceneResult {
@@ -170,7 +174,8 @@ pub(super) mod tests {
             Point { spp, cpu: 0.5 * n, wall: 0.25 * n, error: Error { all, trimmed: 0.9 * all, top_share: 0.1 } }
         };
         let run = |seed| Run { seed, curve: [1, 2, 4, 8, 16].map(|spp| point(seed, spp)).to_vec(), timed: point(seed, 10) };
-        let method = Method { integrator: Integrator::Bdpt, heuristic: HeuristicKind::Power, backend: Backend::Cpu };
+        let (heuristic, sampler) = (HeuristicKind::Power, Sampler::Hash);
+        let method = Method { integrator: Integrator::Bdpt, heuristic, backend: Backend::Cpu, sampler };
         let method = MethodResult {
             method,
             runs: (0..10).map(run).collect(),

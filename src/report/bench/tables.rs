@@ -14,7 +14,8 @@ fn head(table: &mut Table, names: &[&str]) {
 
 fn method(table: &mut Table, scene: &SceneResult, result: &MethodResult) {
     let method = result.method;
-    [scene.scene.as_str(), method.integrator.name(), method.heuristic.name(), method.backend.name()].iter().for_each(|x| table.field(x));
+    let names = [method.integrator.name(), method.heuristic.name(), method.backend.name(), method.sampler.name()];
+    [&[scene.scene.as_str()][..], &names].concat().iter().for_each(|x| table.field(x));
 }
 
 /// Mean and half the 95 % interval.
@@ -26,7 +27,7 @@ fn interval(table: &mut Table, value: Option<Interval>) {
 /// Every point: a line each.
 pub fn points_csv(scenes: &[SceneResult]) -> String {
     let mut table = Table::default();
-    let names = ["scene", "integrator", "heuristic", "backend", "seed", "moment", "spp", "cpu_time [s]", "wall_time [s]"];
+    let names = ["scene", "integrator", "heuristic", "backend", "sampler", "seed", "moment", "spp", "cpu_time [s]", "wall_time [s]"];
     head(&mut table, &[&names[..], &["relmse", "relmse_trimmed", "top_share", "reference_noise"]].concat());
     for scene in scenes {
         for result in &scene.methods {
@@ -54,7 +55,8 @@ fn of_point(table: &mut Table, point: &Point) {
 /// What is said of the methods: two lines each.
 pub fn summary_csv(scenes: &[SceneResult]) -> String {
     let mut table = Table::default();
-    let names = ["scene", "integrator", "heuristic", "backend", "moment", "clock", "seeds", "spp", "cpu_time [s]", "wall_time [s]"];
+    let names =
+        ["scene", "integrator", "heuristic", "backend", "sampler", "moment", "clock", "seeds", "spp", "cpu_time [s]", "wall_time [s]"];
     let errors = ["relmse", "relmse_half", "relmse_trimmed", "relmse_trimmed_half", "reference_noise", "relmse_less_noise"];
     let costs = ["ln(relmse*time/s)", "ln(relmse*time/s)_half", "slope", "slope_half", "slope_trimmed", "slope_trimmed_half"];
     head(&mut table, &[&names[..], &errors, &costs, &["slope_less_noise", "slope_less_noise_half", "slope_reason"]].concat());
@@ -84,13 +86,15 @@ pub fn summary_csv(scenes: &[SceneResult]) -> String {
 /// The strategies: a line each.
 pub fn strategies_csv(scenes: &[SceneResult]) -> String {
     let mut table = Table::default();
-    let names = ["scene", "heuristic", "s", "t", "role", "energy_share", "variance", "variance_share", "cost [us]", "shadow_rays"];
+    let names =
+        ["scene", "heuristic", "sampler", "s", "t", "role", "energy_share", "variance", "variance_share", "cost [us]", "shadow_rays"];
     head(&mut table, &[&names[..], &["efficiency [1/s]", "image_variance", "walk_cost [us]"]].concat());
     for scene in scenes {
         for study in &scene.studies {
             let sum = study.summed_variance();
             for figures in &study.strategies {
-                [scene.scene.as_str(), study.method.heuristic.name()].iter().for_each(|x| table.field(x));
+                let method = study.method;
+                [scene.scene.as_str(), method.heuristic.name(), method.sampler.name()].iter().for_each(|x| table.field(x));
                 [figures.strategy.s, figures.strategy.t].iter().for_each(|x| table.field(x));
                 table.field(role_name(figures.strategy));
                 let share = if sum > 0.0 { figures.variance / sum } else { 0.0 };

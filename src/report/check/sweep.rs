@@ -8,7 +8,7 @@ use crate::bdpt::connect::Sample;
 use crate::bdpt::context::Context;
 use crate::bdpt::{Heuristic, Settings, StrategySet};
 use crate::engine::Job;
-use crate::rng::SampleId;
+use crate::rng::{SampleId, Sampler};
 use crate::scene::View;
 use crate::task;
 use rayon::prelude::*;
@@ -52,10 +52,16 @@ pub trait Merge: Default + Send {
 
 impl Task<'_> {
     /// The job's settings with all strategies, the default weights and at most `max_edges` edges: a check is about the scene, not
-    /// about what is switched off.
+    /// about what is switched off. Its samples are independent: that is what tests of means and variances rest on.
     pub fn settings(&self, max_edges: u32) -> Settings {
         let own = self.job.settings;
-        Settings { max_edges: own.max_edges.min(max_edges), heuristic: Heuristic::default(), strategies: StrategySet::ALL, ..own }
+        Settings {
+            max_edges: own.max_edges.min(max_edges),
+            sampler: Sampler::Hash,
+            heuristic: Heuristic::default(),
+            strategies: StrategySet::ALL,
+            ..own
+        }
     }
 
     /// The lens counts: 1 if light subpaths can hit it.
@@ -78,7 +84,7 @@ impl Task<'_> {
                 .map_init(Sample::default, |sample, chunk| {
                     let mut part = A::default();
                     for n in chunk * CHUNK..((chunk + 1) * CHUNK).min(round) {
-                        sample.trace(&context, order.sample(done + n, settings.seed), light, eye);
+                        sample.trace(&context, order.sample(done + n, settings), light, eye);
                         visit(&context, sample, &mut part);
                     }
                     part
@@ -119,10 +125,10 @@ impl Order {
         Self { width: u64::from(width), pixels, stride }
     }
 
-    fn sample(&self, n: u64, seed: u32) -> SampleId {
+    fn sample(&self, n: u64, settings: &Settings) -> SampleId {
         // Below 2³⁰ pixels times as much fit in 64 bits.
         let pixel = n % self.pixels * self.stride % self.pixels;
-        SampleId { x: (pixel % self.width) as u32, y: (pixel / self.width) as u32, sample: (n / self.pixels) as u32, seed }
+        settings.sample([(pixel % self.width) as u32, (pixel / self.width) as u32], (n / self.pixels) as u32)
     }
 }
 
@@ -136,7 +142,7 @@ mod tests {
             let (order, pixels) = (Order::of(size), u64::from(size[0] * size[1]));
             let mut seen = vec![0; pixels as usize];
             for n in 0..2 * pixels {
-                let id = order.sample(n, 5);
+                let id = order.sample(n, &Settings { seed: 5, ..Settings::default() });
                 assert_eq!((id.sample, id.seed), ((n / pixels) as u32, 5));
                 seen[(id.y * size[0] + id.x) as usize] += 1;
             }
@@ -144,7 +150,7 @@ mod tests {
         }
         // A tenth of the samples puts about a tenth into each quarter of the rows.
         let order = Order::of([64, 48]);
-        let rows = |from: u32| (0..307).filter(|&n| (from..from + 12).contains(&order.sample(n, 0).y)).count();
+        let rows = |from: u32| (0..307).filter(|&n| (from..from + 12).contains(&order.sample(n, &Settings::default()).y)).count();
         assert!([0, 12, 24, 36].into_iter().all(|from| (70..85).contains(&rows(from))));
     }
 }

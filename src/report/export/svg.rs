@@ -31,7 +31,8 @@ pub fn diagram_svg(record: &PathRecord, chosen: Option<Strategy>) -> String {
     let edited = if record.edits.is_some() { "edited scene · " } else { "" };
     let moved = if record.pose.is_some() { " (moved)" } else { "" };
     let camera = format!("camera {}{moved}", record.camera);
-    let made = format!("{edited}film {width}×{height} · {camera} · {lens} · K = {} · seed {}", record.max_edges, record.seed);
+    let sampler = if record.sampler.is_independent() { String::new() } else { format!(" · sampler {}", record.sampler.name()) };
+    let made = format!("{edited}film {width}×{height} · {camera} · {lens} · K = {} · seed {}{sampler}", record.max_edges, record.seed);
     drawing.text([MARGIN, 60.0], "w", &made);
     let chosen = record.strategies.iter().find(|x| Some(x.strategy()) == chosen);
     if let Some(strategy) = chosen {

@@ -11,6 +11,7 @@ use super::text::{CheckText, fill, phrase_text, said};
 use super::widgets::pair;
 use crate::report::check::said::short;
 use crate::report::check::{Check, CheckResult, Finding, Verdict};
+use crate::rng::Sampler;
 use eframe::egui::text::LayoutJob;
 use eframe::egui::{Align, Button, Frame, Label, Layout, Margin, ProgressBar, RichText, Role, TextFormat, TextStyle, Ui, WidgetInfo};
 use icon::Mark;
@@ -188,6 +189,8 @@ fn explain(ui: &mut Ui, state: &mut State, finding: &Finding, stale: bool) {
         if button.on_hover_text(text).on_disabled_hover_text(text).clicked() {
             state.select_pixel(i64::from(x), i64::from(y));
             state.selection.sample = place.sample;
+            // Checks look at independent samples.
+            state.settings.sampler = Sampler::Hash;
             state.select_strategy(place.strategy);
             state.prefs.tab = Tab::Path;
         }

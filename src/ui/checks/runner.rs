@@ -26,9 +26,9 @@ struct Subject {
 
 impl Subject {
     fn of(job: &Job) -> Self {
-        // The checks take all strategies and weights of their own.
-        let Settings { heuristic, strategies, .. } = Settings::default();
-        let settings = Settings { heuristic, strategies, ..job.settings };
+        // The checks take all strategies, and weights and independent samples of their own.
+        let Settings { heuristic, strategies, sampler, .. } = Settings::default();
+        let settings = Settings { heuristic, strategies, sampler, ..job.settings };
         Self { scene: Arc::downgrade(&job.scene), view: format!("{:?}", job.view()), settings }
     }
 

@@ -2,7 +2,7 @@
 
 use super::sets::Strategies;
 use super::words::{
-    BETA, Between, CUTOFF, Codec, Flags, HEURISTICS, Maybe, Name, OneOf, OneStrategy, Read, SWITCH, Several, WholeHeuristic,
+    BETA, Between, CUTOFF, Codec, Flags, HEURISTICS, Maybe, Name, OneOf, OneStrategy, Read, SAMPLERS, SWITCH, Several, WholeHeuristic,
 };
 use super::{CompareMode, Link, Shared};
 use crate::bdpt::MAX_EDGES;
@@ -78,6 +78,7 @@ pub const TABLE: &[Piece] = &[
     piece!("size", Several(Between(1, MOST_SIDE), 'x'), size),
     piece!("k", Between(1, MAX_EDGES as u32), settings.max_edges),
     piece!("seed", Between(0, u32::MAX), settings.seed),
+    piece!("sampler", SAMPLERS, settings.sampler),
     piece!("weights", HEURISTICS, settings.heuristic.kind),
     piece!("beta", BETA, settings.heuristic.beta),
     piece!("cutoff", CUTOFF, settings.heuristic.cutoff),
@@ -164,6 +165,7 @@ const TAB: OneOf<Tab> = OneOf(&[
     (Tab::Splits, "splits"),
     (Tab::Scene, "scene"),
     (Tab::Checks, "checks"),
+    (Tab::Error, "error"),
 ]);
 
 const MODE: OneOf<Mode> = OneOf(&[
@@ -266,7 +268,7 @@ impl Codec for Placed {
     }
 }
 
-/// Which picture: "image", "s1t2", "s1t2.raw". Kept ones do not travel.
+/// Which picture: "image", "s1t2", "s1t2.raw". Kept ones and references do not travel.
 struct OneSource;
 
 impl Codec for OneSource {
@@ -276,7 +278,7 @@ impl Codec for OneSource {
         match source {
             Source::Strategy(strategy, Mode::Weighted) => strategy.to_string(),
             Source::Strategy(strategy, mode) => format!("{strategy}.{}", MODE.write(mode)),
-            Source::Image | Source::Kept(_) => "image".to_owned(),
+            Source::Image | Source::Kept(_) | Source::Reference => "image".to_owned(),
         }
     }
 

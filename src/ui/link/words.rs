@@ -1,6 +1,7 @@
 //! How the values of a link are written and read: short, exact (what is read back is the very same number), and never trusted.
 
 use crate::bdpt::{Heuristic, HeuristicKind, MAX_EDGES, Strategy};
+use crate::rng::Sampler;
 use crate::ui::top_bar::{BETAS, CUTOFFS};
 use std::fmt::{Display, LowerExp};
 use std::ops::RangeInclusive;
@@ -170,6 +171,8 @@ pub const HEURISTICS: OneOf<HeuristicKind> = OneOf(&[
     (HeuristicKind::Cutoff, "cutoff"),
     (HeuristicKind::Uniform, "uniform"),
 ]);
+/// How random numbers go together.
+pub const SAMPLERS: OneOf<Sampler> = OneOf(&[(Sampler::Hash, "hash"), (Sampler::Sobol, "sobol")]);
 /// What β may be.
 pub const BETA: Between<f32> = Between::within(&BETAS);
 /// What the cutoff's threshold may be.

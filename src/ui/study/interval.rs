@@ -5,12 +5,16 @@ use crate::ui::format;
 use crate::ui::state::State;
 use crate::ui::text::{StudyText, fill};
 
-/// "± 0.004", the half width of the widest channel's interval, and what is to be known about it. "± –" while it cannot be told.
+/// "± 0.004", the half width of the widest channel's interval, and what is to be known about it. "± –" while it cannot be told,
+/// and where samples are not independent.
 pub fn words(state: &State, frame: &Frame) -> (String, String) {
     let [x, y] = state.selection.pixel;
     let at = y as usize * frame.size[0] as usize + x as usize;
     let found = frame.intervals.as_ref().and_then(|intervals| Some((intervals, intervals.half.get(at)?)));
     match found {
+        _ if !state.settings.sampler.is_independent() => {
+            (fill(state.say(StudyText::Interval), &["–"]), state.say(StudyText::HelpNotIndependent).to_owned())
+        }
         Some((intervals, half)) => {
             let [r, g, b] = half.to_array().map(|v| format::short(f64::from(v)));
             let (batches, passes) = (intervals.batches.to_string(), intervals.passes.to_string());

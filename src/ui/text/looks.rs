@@ -2,7 +2,13 @@
 
 texts! { LooksText;
     Rendering: "Rendering", "渲染设置";
-    HelpRendering: "Film size, renderer, seed, roulette; start again", "画幅、渲染器、随机数种子、轮盘赌；重新开始";
+    HelpRendering: "Film size, renderer, random numbers, roulette; start again", "画幅、渲染器、随机数、轮盘赌；重新开始";
+    Sampler: "Random numbers", "随机数";
+    HelpSampler: "How the random numbers of a pixel's samples go together. Different seeds are independent either way.", "同一像素各采样的随机数如何分布。不同种子之间总是独立。";
+    SamplerHash: "Independent", "独立";
+    HelpSamplerHash: "Every sample has random numbers of its own: how samples differ tells how far their mean is from the truth.", "各采样的随机数各自独立：由采样之间的差异可以得出均值的误差。";
+    SamplerSobol: "Even (Sobol)", "均匀（Sobol）";
+    HelpSamplerSobol: "The samples of a pixel fill the space of their random numbers evenly: less noise after as many samples. How they differ no longer tells the error, so that no confidence interval is given.", "像素的各采样均匀分布：采样数相同而噪声更少。采样之间的差异不再给出误差，因此没有置信区间。";
     Looks: "Window", "窗口";
     HelpLooks: "Panels, theme, contrast, size, motion, language", "面板、主题、对比度、大小、动画、语言";
     Contrast: "High contrast", "高对比度";

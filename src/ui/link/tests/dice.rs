@@ -5,7 +5,7 @@ use crate::engine::Mode;
 use crate::film::difference::Metric;
 use crate::film::tonemap::ToneMap;
 use crate::math::Vec3;
-use crate::rng::pcg4d;
+use crate::rng::{Sampler, pcg4d};
 use crate::scene::edit::{LampEdit, LightEdit, MaterialEdit};
 use crate::scene::environment::EnvironmentSource;
 use crate::scene::{Lens, Pose, Scene, SceneEdits};
@@ -60,7 +60,7 @@ pub fn random_state(dice: &mut Dice, scene: &Scene) -> State {
     let [eye, light, connections, blocked, splats, names, legend] = [(); 7].map(|()| dice.one_in(2));
     prefs.shown = Shown { eye, light, connections, blocked, splats, names, legend };
     (prefs.gain, prefs.cell) = (dice.of(&[Gain::Same, Gain::Each]), dice.real(64.0, 260.0));
-    prefs.tab = dice.of(&[Tab::Strategies, Tab::Pixel, Tab::Path, Tab::Splits, Tab::Scene, Tab::Checks]);
+    prefs.tab = dice.of(&[Tab::Strategies, Tab::Pixel, Tab::Path, Tab::Splits, Tab::Scene, Tab::Checks, Tab::Error]);
     prefs.sort = dice.of(&[Sort::Length, Sort::Weight, Sort::Contribution]);
     [prefs.inspector_open, prefs.pyramid_open, prefs.space_open, prefs.camera_open] = [(); 4].map(|()| dice.one_in(2));
     state.camera = dice.below(scene.cameras.len());
@@ -77,7 +77,7 @@ pub fn random_state(dice: &mut Dice, scene: &Scene) -> State {
     let kinds: Vec<_> = words::HEURISTICS.0.iter().map(|(kind, _)| *kind).collect();
     let mut heuristic = || Heuristic { kind: dice.of(&kinds), beta: dice.real(0.0, 16.0), cutoff: dice.real(0.0, 1.0) };
     (settings.heuristic, state.inspect.what_if) = (heuristic(), Some(heuristic()));
-    (settings.roulette, settings.fresh_ends) = (dice.one_in(2), dice.one_in(2));
+    (settings.roulette, settings.fresh_ends, settings.sampler) = (dice.one_in(2), dice.one_in(2), dice.of(&Sampler::ALL));
     settings.strategies = strategies(dice);
     state.hidden = strategies(dice);
     state.select_pixel(dice.below(700) as i64, dice.below(700) as i64);
