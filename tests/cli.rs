@@ -8,6 +8,8 @@ mod merge;
 mod no_window;
 #[path = "common/skip.rs"]
 mod skip;
+#[path = "cli/suggest.rs"]
+mod suggest;
 
 use exr::prelude::*;
 use std::collections::BTreeMap;

@@ -1,6 +1,11 @@
 //! What is saved of a sample and of the picture, from the window and from the command line, read back by other programs' readers.
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
+#[path = "common/glb.rs"]
+mod glb;
+#[path = "export/mitsuba.rs"]
+mod mitsuba;
+
 use bdpt_explorer::bdpt::PathRecord;
 use bdpt_explorer::bdpt::{Reason, Strategy};
 use bdpt_explorer::engine::{self, Job};

@@ -20,6 +20,18 @@ const SETTINGS: [&str; 6] = ["--size", "48x48", "--max-edges", "5", "--seeds", "
 /// The same for `blocks.py`, whose blocks are larger and whose tolerance is wider.
 const BLOCKS: [&str; 6] = ["--size", "96x96", "--max-edges", "5", "--seeds", "2"];
 
+/// What `export` writes is held against `render` in these scenes, built in or of `scenes.py`: how, and with so many samples per pixel and
+/// seed.
+const EXPORTED: [(&str, &str, &str); 7] = [
+    ("cornell", "exact", "48"),
+    ("cornell-spheres", "approximate", "64"),
+    ("spots", "exact", "32"),
+    ("sunlit-room", "exact", "48"),
+    ("foliage", "exact", "32"),
+    ("textured.glb", "exact", "32"),
+    ("normal_map.glb", "exact", "32"),
+];
+
 /// One of the Python programs.
 fn script(python: &str, name: &str) -> Command {
     let mut command = Command::new(python);
@@ -110,6 +122,12 @@ fn pictures_agree_with_mitsuba() {
         failures.extend(expect(0, &mut compare(&python, &folder.path().join(scene), mode, spp)).err());
     }
     failures.extend(helmet(&python, folder.path()));
+    for (scene, mode, spp) in EXPORTED {
+        let scene = if scene.ends_with(".glb") { folder.path().join(scene) } else { scene.into() };
+        let mut command = compare(&python, &scene, mode, spp);
+        command.arg("--export").args(if mode == "exact" { &["--seeds", "16"][..] } else { &[] });
+        failures.extend(expect(0, &mut command).err());
+    }
     // An error of 2 % must not pass, nor one of 15 % where the material is only nearly ours.
     for (scene, mode, scale) in [("area.glb", "exact", "1.02"), ("rough_metal.glb", "approximate", "1.15")] {
         let wrong = expect(1, compare(&python, &folder.path().join(scene), mode, "64").args(["--scale", scale]));

@@ -27,6 +27,8 @@ mod edit_again;
 mod edit_files;
 #[path = "ui/edit_looks.rs"]
 mod edit_looks;
+#[path = "ui/error.rs"]
+mod error;
 #[path = "ui/escape.rs"]
 mod escape;
 #[path = "ui/existence.rs"]
@@ -77,6 +79,8 @@ mod space;
 mod space_looks;
 #[path = "ui/study.rs"]
 mod study;
+#[path = "ui/suggest.rs"]
+mod suggest;
 #[path = "ui/summary.rs"]
 mod summary;
 #[path = "ui/surfaces.rs"]

@@ -10,9 +10,11 @@
 
 use super::context::Context;
 use super::crossing::{self, Crossing};
+use super::joint::Joint;
 use super::mis::mis_weight;
 use super::path::{Edge, FullPath};
 use super::reason::Reason;
+use super::settings::Settings;
 use super::strategy::Strategy;
 use super::vertex::{AT_INFINITY, DISCRETE, Subpath, Vertex};
 use super::visibility::visibility;
@@ -92,8 +94,18 @@ impl Sample {
     }
 
     /// Evaluates strategy (s,t) of the sample; after `Ok`, [`Sample::path`] is its path.
-    #[inline]
     pub fn evaluate<F: Shape>(&mut self, context: &Context<F>, strategy: Strategy) -> Result<Contribution, Reason> {
+        self.evaluate_as::<F, true>(context, strategy)
+    }
+
+    /// The same for those who do not look at [`Sample::path`].
+    #[inline]
+    pub fn evaluate_without_path<F: Shape>(&mut self, context: &Context<F>, strategy: Strategy) -> Result<Contribution, Reason> {
+        self.evaluate_as::<F, false>(context, strategy)
+    }
+
+    #[inline(always)]
+    fn evaluate_as<F: Shape, const PATH: bool>(&mut self, context: &Context<F>, strategy: Strategy) -> Result<Contribution, Reason> {
         let (s, t) = (strategy.s as usize, strategy.t as usize);
         (self.fresh_light, self.fresh_lens) = (None, None);
         if t == 0 {
@@ -103,7 +115,7 @@ impl Sample {
             return Err(Reason::EyeSubpathTooShort);
         }
         if s == 0 {
-            return self.eye_hits_light(context, t);
+            return self.eye_hits_light::<F, PATH>(context, t);
         }
         if self.eye.vertices[t - 1].has(AT_INFINITY) {
             return Err(Reason::EyeVertexAtInfinity);
@@ -119,7 +131,7 @@ impl Sample {
             let u = self.id.numbers(BLOCK_FRESH_LENS + strategy.s);
             self.fresh_lens = Some(context.lens_vertex(context.view.sample_lens(pair(u, 0))));
         }
-        self.connect(context, s, t)
+        self.connect::<F, PATH>(context, s, t)
     }
 
     /// The light side's vertices under the strategy evaluated last: y₀…y_{s−1} with its fresh end; t = 0: without the lens.
@@ -168,7 +180,7 @@ impl Sample {
     }
 
     #[inline]
-    fn eye_hits_light<F: Shape>(&mut self, context: &Context<F>, t: usize) -> Result<Contribution, Reason> {
+    fn eye_hits_light<F: Shape, const PATH: bool>(&mut self, context: &Context<F>, t: usize) -> Result<Contribution, Reason> {
         let (z, lights) = (&self.eye.vertices[..t], &context.scene.lights);
         let last = &z[t - 1];
         if last.light == NONE {
@@ -179,18 +191,18 @@ impl Sample {
         if l_e == Vec3::ZERO {
             return Err(Reason::BackOfTheLight);
         }
-        self.path.join(context, &[], z, &Edge::default());
+        let mis_weight = weight::<F, PATH>(context, &mut self.path, &[], z, &Edge::default());
         Ok(Contribution {
             raster: self.raster,
             pixel: [self.id.x, self.id.y],
             connection_term: l_e,
             contribution_unweighted: l_e * last.alpha * context.view.per_pass(),
-            mis_weight: mis_weight(&self.path, 0, &context.settings.heuristic),
+            mis_weight,
         })
     }
 
     #[inline]
-    fn connect<F: Shape>(&mut self, context: &Context<F>, s: usize, t: usize) -> Result<Contribution, Reason> {
+    fn connect<F: Shape, const PATH: bool>(&mut self, context: &Context<F>, s: usize, t: usize) -> Result<Contribution, Reason> {
         let y = light_end(&self.fresh_light, &self.light, s);
         let z = eye_end(&self.fresh_lens, &self.eye, t);
         let (a, b) = (&y[s - 1], &z[t - 1]);
@@ -223,16 +235,30 @@ impl Sample {
         }
         self.edge = Edge { w, geometry: geometry * v, visibility: v };
         let connection_term = f_a * f_b * self.edge.geometry;
-        self.path.join(context, y, z, &self.edge);
+        let mis_weight = weight::<F, PATH>(context, &mut self.path, y, z, &self.edge);
         let pixel = if t == 1 { context.view.pixel(raster).ok_or(Reason::OutsideTheFilm)? } else { [self.id.x, self.id.y] };
         Ok(Contribution {
             raster,
             pixel,
             connection_term,
             contribution_unweighted: a.alpha * connection_term * b.alpha * context.view.per_pass(),
-            mis_weight: mis_weight(&self.path, s, &context.settings.heuristic),
+            mis_weight,
         })
     }
+}
+
+/// w_{s,t} of the path that `edge` joins. With `PATH`, or where it takes more care, `path` becomes that path.
+#[inline(always)]
+fn weight<F: Shape, const PATH: bool>(context: &Context<F>, path: &mut FullPath, y: &[Vertex], z: &[Vertex], edge: &Edge) -> f32 {
+    let Settings { heuristic, strategies, .. } = context.settings;
+    if !PATH {
+        let (joint, row) = (Joint::of(context, y, z, edge), strategies.row((y.len() + z.len()) as u32 - 1));
+        if let Some(weight) = joint.weight(y, z, row, context.view.has_lens(), heuristic) {
+            return weight;
+        }
+    }
+    path.join(context, y, z, edge);
+    mis_weight(path, y.len(), heuristic)
 }
 
 /// y₀…y_{s−1}, or the fresh end.

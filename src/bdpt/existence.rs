@@ -5,7 +5,7 @@
 //! s makes it if x_{s−1} and x_s are both L, L₀, D or E; s = 0 if it starts at L; s = k + 1 if E is a lens with an area.
 
 use super::settings::Settings;
-use super::strategy::Strategy;
+use super::strategy::{Strategy, StrategySet};
 use crate::scene::Scene;
 use serde::Serialize;
 
@@ -94,30 +94,57 @@ impl Existence {
     /// count as one kind. At most four.
     pub fn lost_paths(&self, settings: &Settings) -> Vec<String> {
         let mut lost = Vec::new();
-        for k in 1..=settings.max_edges.min(5) {
-            for (light, can_be_hit) in [("L", true), ("L₀", false)] {
-                let present = if can_be_hit { self.lights_to_hit } else { self.dirac_lights };
-                // Bit i of the pattern: is x_{i+1} a Dirac?
-                for pattern in (0..1u32 << (k - 1)).filter(|_| present && (k > 1 || can_be_hit)) {
-                    let dirac = |i: u32| (1..k).contains(&i) && pattern >> (i - 1) & 1 == 1;
-                    let exists = (1..k).all(|i| if dirac(i) { self.dirac_surfaces } else { self.diffuse });
-                    let samplable = |s: u32| match s {
-                        0 => can_be_hit,
-                        s if s == k + 1 => self.lens,
-                        s => !dirac(s - 1) && !dirac(s),
-                    };
-                    let made = |s: u32| samplable(s) && settings.strategies.contains(Strategy::new(s, k + 1 - s));
-                    if exists && !(0..=k + 1).any(made) {
-                        let name = name(light, (1..k).map(dirac));
-                        if !lost.contains(&name) {
-                            lost.push(name);
-                        }
-                    }
-                }
+        for kind in self.kinds(settings.max_edges.min(5)).filter(|kind| !self.make(kind, &settings.strategies)) {
+            let name = name(if kind.can_be_hit { "L" } else { "L₀" }, (1..kind.k).map(|i| kind.dirac(i)));
+            if !lost.contains(&name) {
+                lost.push(name);
             }
         }
         lost.truncate(4);
         lost
+    }
+
+    /// Can these strategies make every kind of path, of at most ten edges, that all together can?
+    pub fn keep_all(&self, strategies: &StrategySet, max_edges: u32) -> bool {
+        self.kinds(max_edges.min(10)).all(|kind| self.make(&kind, strategies) || !self.make(&kind, &StrategySet::ALL))
+    }
+
+    /// All kinds of paths that there are, the shortest first.
+    fn kinds(&self, max_edges: u32) -> impl Iterator<Item = Kind> + '_ {
+        let kinds = move |k: u32| {
+            [true, false].into_iter().flat_map(move |can_be_hit| (0..1u32 << (k - 1)).map(move |diracs| Kind { k, can_be_hit, diracs }))
+        };
+        (1..=max_edges).flat_map(kinds).filter(|kind| {
+            let lit = if kind.can_be_hit { self.lights_to_hit } else { self.dirac_lights && kind.k > 1 };
+            lit && (1..kind.k).all(|i| if kind.dirac(i) { self.dirac_surfaces } else { self.diffuse })
+        })
+    }
+
+    /// Can one of these strategies make it?
+    fn make(&self, kind: &Kind, strategies: &StrategySet) -> bool {
+        let k = kind.k;
+        let samplable = |s: u32| match s {
+            0 => kind.can_be_hit,
+            s if s == k + 1 => self.lens,
+            s => !kind.dirac(s - 1) && !kind.dirac(s),
+        };
+        (0..=k + 1).any(|s| samplable(s) && strategies.contains(Strategy::new(s, k + 1 - s)))
+    }
+}
+
+/// A kind of path.
+struct Kind {
+    /// Its edges.
+    k: u32,
+    /// Does its light have an extent?
+    can_be_hit: bool,
+    /// Bit i: is x_{i+1} a Dirac?
+    diracs: u32,
+}
+
+impl Kind {
+    fn dirac(&self, i: u32) -> bool {
+        (1..self.k).contains(&i) && self.diracs >> (i - 1) & 1 == 1
     }
 }
 
@@ -137,7 +164,6 @@ fn name(light: &str, diracs: impl Iterator<Item = bool>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::strategy::StrategySet;
     use super::*;
 
     const EVERYTHING: Existence = Existence { lights_to_hit: true, dirac_lights: false, diffuse: true, dirac_surfaces: true, lens: true };

@@ -9,10 +9,11 @@
 //! same ones.
 
 use super::context::Context;
+use super::joint::Joint;
 use super::strategy::MAX_VERTICES;
 use super::vertex::{DISCRETE, Vertex};
 use crate::math::Vec3;
-use crate::scene::{Shape, TransportMode};
+use crate::scene::Shape;
 
 /// The edge that joins the two subpaths.
 #[derive(Clone, Copy, Debug, Default)]
@@ -74,20 +75,12 @@ impl FullPath {
             }
         }
         // Around it, four densities depend on the connection.
-        if s == 0 {
-            self.join_at_light(context, z);
-        } else {
-            let (a, b) = (&y[s - 1], &z[t - 1]);
-            self.p_light[s] = leave_light_vertex_psa(context, a, s, edge.w) * edge.geometry * context.opacity(b);
-            self.p_eye[s - 1] = leave_eye_vertex_psa(context, b, t, -edge.w) * edge.geometry * context.opacity(a);
-            if t >= 2 {
-                let before = context.opacity(&z[t - 2]);
-                self.p_light[s + 1] = scatter_psa(context, b, -edge.w, TransportMode::Importance) * b.geometry_prev * before;
-            }
-            if s >= 2 {
-                let before = context.opacity(&y[s - 2]);
-                self.p_eye[s - 2] = scatter_psa(context, a, edge.w, TransportMode::Radiance) * a.geometry_prev * before;
-            }
+        let joint = Joint::of(context, y, z, edge);
+        for (i, p) in (s..=k).zip(joint.p_light) {
+            self.p_light[i] = p;
+        }
+        for (i, p) in (0..s).rev().zip(joint.p_eye) {
+            self.p_eye[i] = p;
         }
         self.activate(context);
     }
@@ -104,16 +97,6 @@ impl FullPath {
         self.p_eye[k] = context.view.pdf_lens_area();
         self.p_eye[k - 1] = context.view.pdf_direction_psa_on_film(lens.w_prev) * lens.geometry_prev * context.opacity(&y[k - 1]);
         self.activate(context);
-    }
-
-    /// s = 0: x₀ = z_{t−1} lies on a light, which could have chosen it and emitted towards z_{t−2}.
-    #[inline]
-    fn join_at_light<F: Shape>(&mut self, context: &Context<F>, z: &[Vertex]) {
-        let (x0, lights) = (&z[z.len() - 1], &context.scene.lights);
-        let light = &lights.list[x0.light as usize];
-        self.p_light[0] = lights.pdf_origin(light, x0.w_prev);
-        let leaves_psa = light.pdf_direction_psa(x0.n_g, x0.w_prev, context.view.pdf_disk_area);
-        self.p_light[1] = leaves_psa * x0.geometry_prev * context.opacity(&z[z.len() - 2]);
     }
 
     #[inline]
@@ -159,29 +142,4 @@ impl Default for FullPath {
     fn default() -> Self {
         Self::new()
     }
-}
-
-/// P_σ⊥ with which the light subpath leaves its last vertex along `w`; roulette included.
-#[inline]
-fn leave_light_vertex_psa<F: Shape>(context: &Context<F>, y: &Vertex, s: usize, w: Vec3) -> f32 {
-    if s == 1 {
-        return context.scene.lights.list[y.light as usize].pdf_direction_psa(y.n_g, w, context.view.pdf_disk_area);
-    }
-    y.survival * y.bsdf::<F>(context.scene).pdf_psa(y.w_prev, w, TransportMode::Importance)
-}
-
-/// P_σ⊥ with which the eye subpath leaves its last vertex along `w`; roulette included.
-#[inline]
-fn leave_eye_vertex_psa<F: Shape>(context: &Context<F>, z: &Vertex, t: usize, w: Vec3) -> f32 {
-    if t == 1 {
-        // The connection has made sure that it meets the film.
-        return context.view.pdf_direction_psa_on_film(w);
-    }
-    z.survival * z.bsdf::<F>(context.scene).pdf_psa(z.w_prev, w, TransportMode::Radiance)
-}
-
-/// P_σ⊥ with which a walk of the other subpath, arriving along `w`, would go on to this vertex's predecessor.
-#[inline]
-fn scatter_psa<F: Shape>(context: &Context<F>, v: &Vertex, w: Vec3, mode: TransportMode) -> f32 {
-    v.survival * v.bsdf::<F>(context.scene).pdf_psa(w, v.w_prev, mode)
 }

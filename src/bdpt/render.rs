@@ -11,9 +11,10 @@ use super::context::Context;
 use super::existence::Existence;
 use super::settings::Settings;
 use super::strategy::{MAX_VERTICES, Strategy};
-use crate::film::{Film, Layers, Means, Rect, Row, Splats};
+use crate::film::{Film, Layers, Means, Rect, Row, SplatBatch, Splats};
 use crate::math::Vec3;
 use crate::rng::{BLOCK_SPLAT, SampleId};
+use crate::scene::light::{AREA, Light};
 use crate::scene::{Matte, Opaque, Shape};
 use rayon::prelude::*;
 
@@ -142,13 +143,15 @@ impl Plan {
 }
 
 /// The quantum of a film's splats, radiance: fine beside what a light path typically adds to a pixel, Φ/(A_film R²), and coarse
-/// enough that a splat of a small lens hit by chance, Φ/(A_film A_lens), still fits.
+/// enough that a splat of a small lens hit by chance, Φ/(A_film A_lens), still fits, and the brightest lamp in a wide scene, 2²⁰ times.
 pub fn splat_quantum(context: &Context) -> f32 {
     let (view, power) = (context.view, context.scene.lights.power.max_element());
     let radius = context.scene.sphere.radius;
     let typical = power / (view.film_area() * radius * radius) * (-30.0f32).exp2();
     let lens = if view.has_lens() { power * view.pdf_lens_area() / view.film_area() * (-56.0f32).exp2() } else { 0.0 };
-    let quantum = typical.max(lens);
+    let radiance = |light: &Light| if light.kind == AREA { light.radiance.max_element() } else { 0.0 };
+    let lamp = context.scene.lights.list.iter().map(radiance).fold(0.0, f32::max) * (-43.0f32).exp2();
+    let quantum = typical.max(lens).max(lamp);
     if quantum.is_finite() && quantum > 1e-36 { quantum } else { (-30.0f32).exp2() }
 }
 
@@ -170,10 +173,11 @@ pub fn render_rows(context: &Context, plan: &Plan, film: &mut Film, crop: Rect, 
 pub fn render_rows_as<F: Shape>(context: &Context<F>, plan: &Plan, film: &mut Film, crop: Rect, pass: u32, rows: &[u32]) -> Counts {
     let (rows, splats) = film.rows(rows);
     rows.into_par_iter()
-        .map_init(Sample::default, |sample, mut row| {
-            let mut target = Target { splats, pass, crop, counts: Counts::default() };
+        .map_init(<(Sample, SplatBatch)>::default, |(sample, batch), mut row| {
+            let mut target = Target { splats: &splats, batch, pass, crop, counts: Counts::default() };
             target.render_row(context, plan, sample, &mut row);
             row.count_sample();
+            target.counts.saturated = splats.take(target.batch);
             target.counts.rays_closest = std::mem::take(&mut sample.rays_closest);
             target.counts.rays_shadow = std::mem::take(&mut sample.rays_shadow);
             target.counts
@@ -181,14 +185,15 @@ pub fn render_rows_as<F: Shape>(context: &Context<F>, plan: &Plan, film: &mut Fi
         .reduce(Counts::default, Counts::plus)
 }
 
-struct Target<'a> {
-    splats: Splats<'a>,
+struct Target<'a, 'f> {
+    splats: &'a Splats<'f>,
+    batch: &'a mut SplatBatch,
     pass: u32,
     crop: Rect,
     counts: Counts,
 }
 
-impl Target<'_> {
+impl Target<'_, '_> {
     fn render_row<F: Shape>(&mut self, context: &Context<F>, plan: &Plan, sample: &mut Sample, row: &mut Row) {
         for x in 0..context.view.size[0] {
             let id = context.settings.sample([x, row.y], self.pass);
@@ -201,7 +206,7 @@ impl Target<'_> {
             // Strategies beyond a subpath's end contribute zero; the fresh end of (1, t) needs no light subpath.
             for family in plan.by_t.iter().take(n_eye + 1).skip(1) {
                 for &(strategy, slot) in family.iter().take_while(|(x, _)| x.s <= n_light.max(1)) {
-                    if let Ok(contribution) = sample.evaluate(context, strategy) {
+                    if let Ok(contribution) = sample.evaluate_without_path(context, strategy) {
                         self.add(strategy, slot, &contribution, id, row);
                     }
                 }
@@ -241,7 +246,7 @@ impl Target<'_> {
             let [u0, u1, u2, _] = id.hashed(BLOCK_SPLAT + strategy.s);
             for (layer, value) in values {
                 if let Some(layer) = layer {
-                    self.counts.saturated += u64::from(!self.splats.add(contribution.pixel, layer, value, [u0, u1, u2]));
+                    self.splats.add(self.batch, contribution.pixel, layer, value, [u0, u1, u2]);
                 }
             }
         }

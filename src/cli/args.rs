@@ -1,5 +1,6 @@
 //! The words of the command line. Whatever can be judged without the scene is judged here, value by value.
 
+use super::export::ExportArgs;
 use super::values::*;
 use crate::bdpt::{HeuristicKind, Strategy};
 use crate::engine::{Backend, Crop};
@@ -39,9 +40,13 @@ pub enum Command {
     /// Is the image of a scene right? Paths rebuilt by every strategy, strategies against each other, known answers;
     /// exit status 1 if a check fails
     Check(CheckArgs),
+    /// Which strategies does a scene need? A short pilot run judges what others would do: variance, cost, efficiency
+    Suggest(SuggestArgs),
     /// How fast does the error fall? Scenes × integrators × heuristics × samplers × backends, over independent seeds, against a converged
     /// reference; writes a report, tables and plots
     Bench(BenchArgs),
+    /// Write a scene for another renderer: the same view, the same lights, the same materials where it has them
+    Export(ExportArgs),
 }
 
 #[derive(Args)]
@@ -103,6 +108,12 @@ pub struct LookArgs {
     /// Tone curve of .png files
     #[arg(long, value_name = "NAME", value_parser = tonemap_parser(), default_value = "srgb")]
     pub tonemap: ToneMap,
+}
+
+#[derive(Args)]
+pub struct SuggestArgs {
+    #[command(flatten)]
+    pub estimator: EstimatorArgs,
 }
 
 #[derive(Args)]
@@ -195,6 +206,38 @@ pub struct BenchArgs {
 pub struct EstimatorArgs {
     /// A built-in scene (see `scenes`), or a .gltf or .glb file
     pub scene: String,
+    #[command(flatten)]
+    pub view: ViewArgs,
+    /// Seed of the random numbers
+    #[arg(long, value_name = "N", value_parser = natural, allow_hyphen_values = true, default_value = "0")]
+    pub seed: u32,
+    /// How the random numbers of a pixel's samples go together: independent (hash), or evenly spread (sobol: less noise, and how
+    /// samples differ no longer tells the error). Seeds are independent either way
+    #[arg(long, value_name = "NAME", value_parser = sampler_parser(), default_value = "hash")]
+    pub sampler: Sampler,
+    /// How strategies that can make the same path share it
+    #[arg(long, value_name = "NAME", value_parser = heuristic_parser(), default_value = "power")]
+    pub heuristic: HeuristicKind,
+    /// Exponent of the power heuristic
+    #[arg(long, value_name = "B", value_parser = beta, allow_hyphen_values = true, default_value = "2")]
+    pub beta: f32,
+    /// Threshold of the cutoff heuristic, 0 to 1
+    #[arg(long, value_name = "A", value_parser = fraction, allow_hyphen_values = true, default_value = "0.1")]
+    pub cutoff: f32,
+    /// `all`, `suggested` (see the command `suggest`), or a list such as s0t2,s1t1
+    #[arg(long, value_name = "LIST", value_parser = Selection::parse, default_value = "all")]
+    pub strategies: Selection,
+    /// Bidirectional, or only the strategies of a path tracer (s ≤ 1) or a light tracer (t ≤ 1)
+    #[arg(long, value_name = "NAME", value_parser = ["bdpt", "pt", "lt"], default_value = "bdpt")]
+    pub integrator: String,
+    /// Russian roulette
+    #[arg(long, value_name = "on|off", action = ArgAction::Set, value_parser = PossibleValuesParser::new(["on", "off"]).map(|word| word == "on"), default_value = "on")]
+    pub roulette: bool,
+}
+
+/// What of a scene is seen, and how.
+#[derive(Args)]
+pub struct ViewArgs {
     /// Size of the full picture
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true, default_value = "512x512")]
     pub size: [u32; 2],
@@ -219,37 +262,14 @@ pub struct EstimatorArgs {
     /// K: the most edges a path may have, 1 to 64
     #[arg(long, value_name = "K", value_parser = edges, allow_hyphen_values = true, default_value = "6")]
     pub max_edges: u32,
-    /// Seed of the random numbers
-    #[arg(long, value_name = "N", value_parser = natural, allow_hyphen_values = true, default_value = "0")]
-    pub seed: u32,
-    /// How the random numbers of a pixel's samples go together: independent (hash), or evenly spread (sobol: less noise, and how
-    /// samples differ no longer tells the error). Seeds are independent either way
-    #[arg(long, value_name = "NAME", value_parser = sampler_parser(), default_value = "hash")]
-    pub sampler: Sampler,
-    /// How strategies that can make the same path share it
-    #[arg(long, value_name = "NAME", value_parser = heuristic_parser(), default_value = "power")]
-    pub heuristic: HeuristicKind,
-    /// Exponent of the power heuristic
-    #[arg(long, value_name = "B", value_parser = beta, allow_hyphen_values = true, default_value = "2")]
-    pub beta: f32,
-    /// Threshold of the cutoff heuristic, 0 to 1
-    #[arg(long, value_name = "A", value_parser = fraction, allow_hyphen_values = true, default_value = "0.1")]
-    pub cutoff: f32,
-    /// `all`, or a list such as s0t2,s1t1
-    #[arg(long, value_name = "LIST", value_parser = Selection::parse, default_value = "all")]
-    pub strategies: Selection,
-    /// Bidirectional, or only the strategies of a path tracer (s ≤ 1) or a light tracer (t ≤ 1)
-    #[arg(long, value_name = "NAME", value_parser = ["bdpt", "pt", "lt"], default_value = "bdpt")]
-    pub integrator: String,
-    /// Russian roulette
-    #[arg(long, value_name = "on|off", action = ArgAction::Set, value_parser = PossibleValuesParser::new(["on", "off"]).map(|word| word == "on"), default_value = "on")]
-    pub roulette: bool,
 }
 
 /// The value of `--strategies`.
 #[derive(Clone, Debug)]
 pub enum Selection {
     All,
+    /// Those that a pilot run suggests.
+    Suggested,
     Listed(Vec<Strategy>),
 }
 
@@ -258,7 +278,12 @@ impl Selection {
         if text == "all" {
             return Ok(Self::All);
         }
-        let parse = |name: &str| Strategy::parse(name).ok_or(format!("'{name}' is no strategy; write `all`, or a list such as s0t2,s1t1"));
+        if text == "suggested" {
+            return Ok(Self::Suggested);
+        }
+        let parse = |name: &str| {
+            Strategy::parse(name).ok_or(format!("'{name}' is no strategy; write `all`, `suggested`, or a list such as s0t2,s1t1"))
+        };
         text.split(',').map(parse).collect::<Result<_, _>>().map(Self::Listed)
     }
 }

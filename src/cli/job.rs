@@ -1,7 +1,7 @@
 //! From words to an engine job: what can only be judged with the scene at hand.
 
 use super::Failure;
-use super::args::{EstimatorArgs, Selection};
+use super::args::{EstimatorArgs, Selection, ViewArgs};
 use crate::bdpt::{Existence, Heuristic, Settings, Strategy, StrategySet};
 use crate::engine::Job;
 use crate::scene::{Lens, Overrides, Scene, builtin};
@@ -18,31 +18,39 @@ pub struct Prepared {
 
 /// Opens the scene, reports the loader's notes, and puts the job together.
 pub fn prepare(args: &EstimatorArgs, hide: bool) -> Result<Prepared, Failure> {
+    let job = view(&args.scene, &args.view)?;
+    let existence = job.existence();
+    let mut settings = Settings {
+        seed: args.seed,
+        sampler: args.sampler,
+        heuristic: Heuristic { kind: args.heuristic, beta: args.beta, cutoff: args.cutoff },
+        roulette: args.roulette,
+        ..job.settings
+    };
+    let job = Job { settings, ..job };
+    let (taking_part, shown) = match args.strategies {
+        Selection::Suggested => suggested(args, hide, &job)?,
+        _ => strategies(args, hide, existence)?,
+    };
+    settings.strategies = taking_part;
+    let hide = hide && existence.active(&settings).count() > shown.len();
+    say_notes(&job.scene);
+    say_what_is_lost(existence, &settings);
+    Ok(Prepared { job: Job { settings, weighted_layers: hide, ..job }, shown, hide })
+}
+
+/// Opens a scene for a view of it; an error is one line, so the loader's notes are not said yet.
+pub fn view(name: &str, args: &ViewArgs) -> Result<Job, Failure> {
     let overrides = Overrides {
         environment: args.environment.clone(),
         environment_rotation: args.environment_rotation,
         scene: args.scene_name.clone(),
     };
-    let scene = open(&args.scene, &overrides)?;
-    // An error is one line: the loader's notes come when there is none.
-    let camera = camera(&scene, args)?;
+    let scene = open(name, &overrides)?;
+    let camera = camera(&scene, name, args)?;
     let lens = lens(scene.cameras[camera].lens, args);
-    let job = Job { camera, lens, size: args.size, ..Job::new(scene) };
-    let existence = job.existence();
-    let (taking_part, shown) = strategies(args, hide, existence)?;
-    let settings = Settings {
-        max_edges: args.max_edges,
-        seed: args.seed,
-        sampler: args.sampler,
-        heuristic: Heuristic { kind: args.heuristic, beta: args.beta, cutoff: args.cutoff },
-        roulette: args.roulette,
-        strategies: taking_part,
-        ..Settings::default()
-    };
-    let hide = hide && existence.active(&settings).count() > shown.len();
-    say_notes(&job.scene);
-    say_what_is_lost(existence, &settings);
-    Ok(Prepared { job: Job { settings, weighted_layers: hide, ..job }, shown, hide })
+    let settings = Settings { max_edges: args.max_edges, ..Settings::default() };
+    Ok(Job { camera, lens, size: args.size, settings, ..Job::new(scene) })
 }
 
 /// Light that no strategy in use can bring is missing from the picture: that must be known.
@@ -68,22 +76,40 @@ pub fn say_notes(scene: &Scene) {
     }
 }
 
-fn camera(scene: &Scene, args: &EstimatorArgs) -> Result<usize, Failure> {
+fn camera(scene: &Scene, file: &str, args: &ViewArgs) -> Result<usize, Failure> {
     let Some(name) = &args.camera else { return Ok(0) };
     scene.cameras.iter().position(|camera| camera.name == *name).ok_or_else(|| {
         let names: Vec<_> = scene.cameras.iter().map(|camera| format!("'{}'", camera.name)).collect();
-        Failure(format!("--camera '{name}' is not in {}; it has {}", args.scene, names.join(", ")))
+        Failure(format!("--camera '{name}' is not in {file}; it has {}", names.join(", ")))
     })
 }
 
 /// The lens the user asks for, if it is not the camera's own; what is not said stays as it is.
-fn lens(own: Lens, args: &EstimatorArgs) -> Option<Lens> {
+fn lens(own: Lens, args: &ViewArgs) -> Option<Lens> {
     let radius = args.lens_radius.unwrap_or(own.radius);
     if args.focus_distance.is_some() && radius == 0.0 {
         eprintln!("note: --focus-distance changes nothing, as the camera is a pinhole; give it a --lens-radius");
     }
     let lens = Lens { radius, focus_distance: args.focus_distance.unwrap_or(own.focus_distance) };
     (lens != own).then_some(lens)
+}
+
+/// The strategies that a pilot run suggests, and the same as a list.
+fn suggested(args: &EstimatorArgs, hide: bool, job: &Job) -> Result<(StrategySet, Vec<Strategy>), Failure> {
+    if hide || args.integrator != "bdpt" {
+        let other = if hide { "--strategies-mode hide".to_owned() } else { format!("--integrator {}", args.integrator) };
+        return Err(Failure(format!(
+            "--strategies suggested chooses who shares the weights, so it does not go with {other}; leave one out"
+        )));
+    }
+    job.check()?;
+    let best = job.judge_strategies().into_iter().next().filter(|best| best.is_worth_it());
+    match &best {
+        Some(best) => eprintln!("note: rendering with {}; `suggest {}` shows why", best.family, args.scene),
+        None => eprintln!("note: rendering with all strategies: the pilot run found no set that is surely better"),
+    }
+    let set = best.map_or(StrategySet::ALL, |best| best.family.set());
+    Ok((set, job.existence().active(&Settings { strategies: set, ..job.settings }).collect()))
 }
 
 /// The strategies that share the weights, and those whose sum is the picture.
@@ -94,10 +120,10 @@ fn strategies(args: &EstimatorArgs, hide: bool, existence: Existence) -> Result<
         _ => StrategySet::ALL,
     };
     let exists = |x: &Strategy| integrator.contains(*x) && existence.absence(*x).is_none();
-    let possible = Strategy::all(args.max_edges, true).filter(exists);
+    let possible = Strategy::all(args.view.max_edges, true).filter(exists);
     let Selection::Listed(listed) = &args.strategies else { return Ok((integrator, possible.collect())) };
     for &strategy in listed {
-        let (k, max) = (strategy.edges(), args.max_edges);
+        let (k, max) = (strategy.edges(), args.view.max_edges);
         let reason = if k > max {
             format!("makes paths of {k} edges, but --max-edges is {max}; raise that, or leave it out")
         } else if !integrator.contains(strategy) {

@@ -5,11 +5,13 @@
 mod args;
 mod bench;
 mod check;
+mod export;
 mod inspect;
 mod job;
 mod merge;
 mod progress;
 mod render;
+mod suggest;
 mod values;
 
 use crate::engine::{JobError, Still};
@@ -99,7 +101,9 @@ where
         (Some(Command::Merge(args)), None) => merge::run(&args).map(|()| ExitCode::SUCCESS),
         (Some(Command::Inspect(args)), None) => inspect::run(&args).map(|()| ExitCode::SUCCESS),
         (Some(Command::Check(args)), None) => check::run(&args),
+        (Some(Command::Suggest(args)), None) => suggest::run(&args).map(|()| ExitCode::SUCCESS),
         (Some(Command::Bench(args)), None) => bench::run(&args).map(|()| ExitCode::SUCCESS),
+        (Some(Command::Export(args)), None) => export::run(&args).map(|()| ExitCode::SUCCESS),
     };
     outcome.unwrap_or_else(|failure| fail(&failure))
 }

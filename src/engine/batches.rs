@@ -12,6 +12,7 @@
 //! nothing and a few add much (fireflies), it is too narrow until these have been met.
 
 use crate::bdpt::StrategySet;
+use crate::film::difference::EPSILON;
 use crate::math::Vec3;
 use rayon::prelude::*;
 
@@ -93,6 +94,15 @@ impl Batches {
         let half = |spread: f64| (t * (spread.max(0.0) * scale).sqrt()) as f32;
         let half = self.pixels.par_iter().map(|pixel| Vec3::from_array(pixel.map(|[_, spread]| half(spread)))).collect();
         Some(Intervals { passes, batches, half })
+    }
+
+    /// relMSE that the mean has by itself ([`crate::film::error`]), if there are batches enough: the mean of σ²/W / (X̄² + ε).
+    pub fn noise(&self) -> Option<f64> {
+        let free = self.count.checked_sub(1).filter(|_| self.count >= LEAST)?;
+        let scale = 1.0 / (f64::from(free) * f64::from(self.passes));
+        let of = |[mean, spread]: &[f64; 2]| spread.max(0.0) * scale / (mean * mean + EPSILON);
+        let sum: f64 = self.pixels.par_iter().map(|pixel| pixel.iter().map(of).sum::<f64>()).sum();
+        Some(sum / (3.0 * self.pixels.len().max(1) as f64))
     }
 }
 
@@ -195,6 +205,25 @@ mod tests {
         let share = |count: u32| f64::from(count) / f64::from(all);
         assert!((share(covered) - 0.95).abs() < 0.01, "{}", share(covered));
         assert!((share(control) - 0.95).abs() > 0.01, "half the width is too narrow: {}", share(control));
+    }
+
+    /// Of batches of one pass each, the noise is the one that the definition has of as many parts.
+    #[test]
+    fn the_noise_is_that_of_independent_parts() {
+        let part = |pass: u32| -> Vec<Vec3> {
+            let number = |pixel| SampleId { x: pixel, y: 0, sample: pass, seed: 9, ..SampleId::default() }.numbers(0)[0];
+            (0..500).map(|pixel| Vec3::new(number(pixel), 0.5 * number(pixel), 0.1)).collect()
+        };
+        let parts: Vec<_> = (0..6).map(part).collect();
+        let mut batches = Batches::new(StrategySet::NONE);
+        for passes in 1..=6 {
+            assert_eq!(batches.noise().is_some(), passes > LEAST);
+            batches.end(passes, &crate::film::error::mean_image(&parts[..passes as usize]));
+        }
+        let image = crate::film::error::mean_image(&parts);
+        let (found, expected) =
+            (batches.noise().unwrap_or_default(), crate::film::error::reference_noise(&parts, &image).unwrap_or_default());
+        assert!(expected > 0.0 && (found / expected - 1.0).abs() < 1e-5, "{found} is not {expected}");
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::batches::Batches;
 use super::coarse::Coarse;
 use super::frame::{Frame, make_frame, make_picture};
+use super::judge::{Curves, Judge, Trial};
 use super::picture::{Gallery, Picture, Source};
 use super::study::{Study, Wish};
 use super::surveyor::Surveyor;
@@ -36,6 +37,8 @@ enum Command {
     Pause(bool),
     /// The pixel to be told about, strategy by strategy.
     Pixel([u32; 2]),
+    /// What is to be measured.
+    Trial(Box<Trial>),
     /// Somebody looks at another picture.
     Look,
     Layers(async_channel::Sender<Layers>),
@@ -54,6 +57,8 @@ pub struct Engine {
     gallery: Arc<Gallery>,
     surveyor: Surveyor,
     wish: Wish,
+    trial: Trial,
+    curves: Arc<Mutex<Option<Arc<Curves>>>>,
     task: Option<Task>,
 }
 
@@ -68,7 +73,9 @@ impl Engine {
         let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
         let no_thread = |error| JobError(format!("cannot start the render thread: {error}"));
         let surveyor = Surveyor::start(job.clone(), Arc::clone(&gallery), Arc::clone(&wake)).map_err(no_thread)?;
+        let curves = Arc::new(Mutex::new(None));
         let worker = Worker {
+            judge: Judge::new(job.clone(), Arc::clone(&curves), Arc::clone(&wake)),
             coarse: first_look(&session),
             session,
             generation: 0,
@@ -82,8 +89,9 @@ impl Engine {
             wake,
         };
         let task = task::spawn("render", || worker.run(inbox)).map_err(no_thread)?;
-        let (hidden, paused, wish) = (StrategySet::NONE, false, Wish::default());
-        Ok(Self { job, generation: 0, hidden, paused, pixel: [0; 2], commands, frame, gallery, surveyor, wish, task: Some(task) })
+        let (hidden, paused, wish, trial) = (StrategySet::NONE, false, Wish::default(), Trial::default());
+        let task = Some(task);
+        Ok(Self { job, generation: 0, hidden, paused, pixel: [0; 2], commands, frame, gallery, surveyor, wish, trial, curves, task })
     }
 
     /// Renders something else from now on. On an error the old job goes on. The new film is made by the task: the caller,
@@ -158,6 +166,19 @@ impl Engine {
         self.surveyor.study().filter(|study| study.generation == self.generation)
     }
 
+    /// What is to be measured of the image.
+    pub fn set_trial(&mut self, trial: Trial) {
+        if trial != self.trial {
+            self.trial = trial;
+            self.send(Command::Trial(Box::new(self.trial.clone())));
+        }
+    }
+
+    /// What has been measured.
+    pub fn curves(&self) -> Option<Arc<Curves>> {
+        self.curves.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
     /// Number of the current job.
     pub fn generation(&self) -> u64 {
         self.generation
@@ -192,6 +213,8 @@ impl Drop for Engine {
 
 struct Worker {
     session: Session,
+    /// What is rendered and measured beside it.
+    judge: Judge,
     /// What is shown before there is more, where it is worth it.
     coarse: Option<Coarse>,
     generation: u64,
@@ -211,9 +234,9 @@ impl Worker {
         loop {
             task::give_way().await;
             // All commands that have come; a paused task rests until one does. Of several restarts only the last one counts.
-            let (mut changed, mut restart, mut asked) = (false, None, Vec::new());
+            let (mut changed, mut restart, mut trials, mut asked) = (false, None, None, Vec::new());
             loop {
-                let rests = self.paused && !changed && !self.looking();
+                let rests = self.paused && !changed && !self.looking() && !self.judge.has_questions(&self.session);
                 let command = if rests { inbox.recv().await.map_err(|_| TryRecvError::Closed) } else { inbox.try_recv() };
                 match command {
                     Ok(Command::Stop) | Err(TryRecvError::Closed) => return,
@@ -221,6 +244,7 @@ impl Worker {
                     Ok(Command::Hide(hidden)) => self.hidden = *hidden,
                     Ok(Command::Pause(paused)) => self.paused = paused,
                     Ok(Command::Pixel(pixel)) => self.pixel = pixel,
+                    Ok(Command::Trial(trial)) => trials = Some(*trial),
                     Ok(Command::Look) => {}
                     Ok(Command::Layers(sender)) => asked.push(sender),
                     Err(TryRecvError::Empty) => break,
@@ -231,6 +255,9 @@ impl Worker {
             if let Some((job, generation)) = restart {
                 self.restart(job, generation).await;
             }
+            if let Some(trial) = trials {
+                self.judge.want(trial);
+            }
             for sender in asked {
                 // Who asked may have gone away meanwhile.
                 drop(sender.try_send(self.layers().await));
@@ -239,13 +266,17 @@ impl Worker {
             if self.looking() {
                 self.look().await;
                 changed |= !self.looking();
-            } else if !self.paused && !restarted {
+            } else if self.paused {
+                self.judge.measure_again();
+            } else if !restarted && self.judge.turn(&self.session).await {
                 // A batch that is due ends with this pass.
                 let next = self.session.passes().saturating_add(1);
-                self.session.set_limit(if self.batches.is_due(next) { next } else { u32::MAX });
+                self.session.set_limit(if self.batches.is_due(next) { next } else { self.judge.limit(next - 1) });
                 self.session.advance(SLICE).await;
             }
             self.end_batch().await;
+            self.judge.look(&mut self.session, self.paused).await;
+            self.judge.show(&self.session, self.paused);
             if (changed || Instant::now() >= next_frame) && !self.looking() {
                 let began = Instant::now();
                 self.publish().await;
@@ -259,6 +290,7 @@ impl Worker {
         // It was checked when it was sent.
         if let Ok(session) = Session::for_window(job) {
             (self.session, self.generation) = (session, generation);
+            self.judge.restart(self.session.job(), generation);
             self.coarse = None;
             (self.batches, self.intervals) = (Batches::new(self.hidden), None);
             // Kernels that are compiled already come at once: then the first picture need not be the CPU's.

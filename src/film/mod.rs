@@ -8,6 +8,7 @@
 
 pub mod colourmap;
 pub mod difference;
+pub mod error;
 pub mod picture;
 pub mod runs;
 pub mod save;
@@ -17,9 +18,9 @@ pub mod tonemap;
 
 use crate::math::Vec3;
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 
-/// Most quanta that a 64-bit counter may hold in a pass: half of what it can, so that no thread meets it wrapped around.
+/// Most quanta that a counter may hold in a pass.
 const MAX_QUANTA: u64 = 1 << 63;
 
 /// A rectangle of pixels, from the top left.
@@ -66,7 +67,7 @@ pub struct Film {
     /// [pixel][layer][channel]
     sums: Vec<f64>,
     /// [pixel][layer][channel], this pass, in quanta.
-    splats: Vec<AtomicU64>,
+    splats: Vec<u64>,
     /// [pixel][layer][channel], passes before, radiance.
     folded: Vec<f64>,
     quantum: f32,
@@ -84,12 +85,19 @@ pub struct Row<'a> {
 }
 
 /// The splat layers, open for adding from any thread.
-#[derive(Clone, Copy)]
 pub struct Splats<'a> {
-    size: [u32; 2],
+    width: u32,
     layers: usize,
-    cells: &'a [AtomicU64],
+    cells: Mutex<&'a mut [u64]>,
     quantum: f32,
+}
+
+/// Splats on their way to the film. They go there many at a time: each lands in another corner of it, and together their ways
+/// through the memory overlap.
+#[derive(Debug, Default)]
+pub struct SplatBatch {
+    /// First of three counters, and what each of them gets.
+    list: Vec<(usize, [u64; 3])>,
 }
 
 impl Film {
@@ -106,7 +114,7 @@ impl Film {
             size,
             layers,
             sums: vec![0.0; pixels * layers.pixel * 3],
-            splats: std::iter::repeat_with(AtomicU64::default).take(pixels * layers.splat * 3).collect(),
+            splats: vec![0; pixels * layers.splat * 3],
             folded: vec![0.0; pixels * layers.splat * 3],
             quantum,
             row_samples: vec![0; size[1] as usize],
@@ -116,7 +124,8 @@ impl Film {
     /// The rows of these numbers, each open for adding on its own thread, and the splats for all of them.
     pub fn rows(&mut self, numbers: &[u32]) -> (Vec<Row<'_>>, Splats<'_>) {
         let stride = self.size[0] as usize * self.layers.pixel * 3;
-        let splats = Splats { size: self.size, layers: self.layers.splat, cells: &self.splats, quantum: self.quantum };
+        let cells = Mutex::new(self.splats.as_mut_slice());
+        let splats = Splats { width: self.size[0], layers: self.layers.splat, cells, quantum: self.quantum };
         let mut wanted = vec![false; self.row_samples.len()];
         numbers.iter().for_each(|&y| wanted[y as usize] = true);
         let layers = self.layers;
@@ -128,7 +137,7 @@ impl Film {
     pub fn fold(&mut self) {
         let quantum = f64::from(self.quantum);
         for (sum, cell) in self.folded.iter_mut().zip(&mut self.splats) {
-            let quanta = std::mem::take(cell.get_mut());
+            let quanta = std::mem::take(cell);
             if quanta > 0 {
                 *sum += quanta as f64 * quantum;
             }
@@ -229,7 +238,7 @@ impl Means<'_> {
         let film = self.film;
         let at = (pixel * film.layers.splat + layer) * 3;
         let quantum = f64::from(film.quantum);
-        vec3(|c| film.folded[at + c] + film.splats[at + c].load(Ordering::Relaxed) as f64 * quantum, self.splat_scale)
+        vec3(|c| film.folded[at + c] + film.splats[at + c] as f64 * quantum, self.splat_scale)
     }
 }
 
@@ -264,23 +273,33 @@ pub fn quanta(value: f32, u: f32, quantum: f32) -> u64 {
 }
 
 impl Splats<'_> {
-    /// Adds to a pixel of a splat layer; `u` rounds each channel stochastically. False if the value was too large to count.
+    /// Lays what a pixel of a splat layer gets into a batch; `u` rounds each channel stochastically.
     #[inline]
-    pub fn add(&self, [x, y]: [u32; 2], layer: usize, value: Vec3, u: [f32; 3]) -> bool {
-        let at = ((y as usize * self.size[0] as usize + x as usize) * self.layers + layer) * 3;
-        let mut fits = true;
-        for (c, value) in value.to_array().into_iter().enumerate() {
-            let rounded = quanta(value, u[c], self.quantum);
-            if rounded > 0 {
-                let before = self.cells[at + c].fetch_add(rounded, Ordering::Relaxed);
-                if before >= MAX_QUANTA - rounded {
-                    // Too much for the counter: this splat is left out, and the caller told.
-                    self.cells[at + c].fetch_sub(rounded, Ordering::Relaxed);
+    pub fn add(&self, batch: &mut SplatBatch, [x, y]: [u32; 2], layer: usize, value: Vec3, u: [f32; 3]) {
+        let at = ((y as usize * self.width as usize + x as usize) * self.layers + layer) * 3;
+        let [r, g, b] = value.to_array();
+        let quanta = [quanta(r, u[0], self.quantum), quanta(g, u[1], self.quantum), quanta(b, u[2], self.quantum)];
+        if quanta != [0; 3] {
+            batch.list.push((at, quanta));
+        }
+    }
+
+    /// Adds a batch to the film and empties it; how many splats were too large to count.
+    pub fn take(&self, batch: &mut SplatBatch) -> u64 {
+        let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut saturated = 0;
+        for (at, quanta) in batch.list.drain(..) {
+            let mut fits = true;
+            for (cell, quanta) in cells[at..at + 3].iter_mut().zip(quanta) {
+                if *cell < MAX_QUANTA - quanta {
+                    *cell += quanta;
+                } else {
                     fits = false;
                 }
             }
+            saturated += u64::from(!fits);
         }
-        fits
+        saturated
     }
 }
 
@@ -297,9 +316,11 @@ mod tests {
         let mean = |order: &mut dyn Iterator<Item = &f32>| {
             let mut film = film();
             let (mut rows, splats) = film.rows(&[0]);
+            let mut batch = SplatBatch::default();
             for (i, &v) in order.enumerate() {
-                assert!(splats.add([1, 0], 0, Vec3::splat(v), [(i as f32 * 0.618).fract(); 3]));
+                splats.add(&mut batch, [1, 0], 0, Vec3::splat(v), [(i as f32 * 0.618).fract(); 3]);
             }
+            assert_eq!(splats.take(&mut batch), 0);
             rows[0].count_sample();
             film.fold();
             film.means().splat(0, 1).x
@@ -324,15 +345,18 @@ mod tests {
     #[test]
     fn a_splat_too_large_to_count_says_so() {
         let mut film = Film::new([1, 1], Layers { pixel: 1, splat: 1 }, QUANTUM);
-        let (_, splats) = film.rows(&[0]);
-        assert!(splats.add([0, 0], 0, Vec3::splat(1000.0), [0.5; 3]));
-        assert!(!splats.add([0, 0], 0, Vec3::splat(1e9), [0.5; 3]));
-        assert_eq!(film.means().splat(0, 0), Vec3::ZERO, "no pass is complete");
-        let (mut rows, splats) = film.rows(&[0]);
-        rows[0].count_sample();
-        assert!((0..140).filter(|_| !splats.add([0, 0], 0, Vec3::splat(1e6), [0.5; 3])).count() >= 6, "together they are too many");
-        drop(rows);
-        assert!(film.means().splat(0, 0).x < 1.4e8);
+        let too_large = |film: &mut Film, values: &[f32]| {
+            let (mut rows, splats) = film.rows(&[0]);
+            let mut batch = SplatBatch::default();
+            values.iter().for_each(|&value| splats.add(&mut batch, [0, 0], 0, Vec3::splat(value), [0.5; 3]));
+            rows[0].count_sample();
+            splats.take(&mut batch)
+        };
+        assert_eq!(too_large(&mut film, &[1000.0]), 0);
+        assert_eq!(too_large(&mut film, &[1e9]), 1);
+        assert!(film.means().splat(0, 0).x < 1e4);
+        assert!(too_large(&mut film, &[1e6; 140]) >= 6, "together they are too many");
+        assert!(film.means().splat(0, 0).x * 3.0 < 1.4e8);
     }
 
     #[test]

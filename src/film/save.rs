@@ -91,6 +91,14 @@ pub fn exr_bytes(window: Window, layers: &[Layer<'_>]) -> Result<Vec<u8>, String
     encode(window, channels, None)
 }
 
+/// The bytes of an EXR file of one channel, Y, row by row from the top.
+///
+/// # Errors
+/// The encoder's sentence.
+pub fn exr_grey_bytes(size: [u32; 2], values: Vec<f32>) -> Result<Vec<u8>, String> {
+    encode(Window::full(size), std::iter::once(("Y".to_owned(), values)), None)
+}
+
 /// An EXR of these channels, named, each with the window's values row by row from the top; `label` is the name and the value of
 /// a text in its header.
 pub(super) fn encode(

@@ -34,8 +34,8 @@ use crate::math::Vec3;
 use crate::rng::Sampler;
 use stats::Error;
 
-/// The reference's first seed; measured are seeds below it.
-pub const REFERENCE_SEED: u32 = 1 << 31;
+pub use crate::engine::REFERENCE_SEED;
+
 /// The seed of what is run to warm up and to find the budget: neither the reference's nor a measured one.
 pub const PILOT_SEED: u32 = REFERENCE_SEED - 1;
 

@@ -1,11 +1,14 @@
 //! What a rendering is told as: the labelled sheet of strategy images, the names it goes by, whether it is right, and how fast.
 
+pub mod axis;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod bench;
 pub mod canvas;
 pub mod check;
 pub mod contact_sheet;
 pub mod export;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod mitsuba;
 
 pub use canvas::Canvas;
 pub use contact_sheet::{ContactSheet, Heading};

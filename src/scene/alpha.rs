@@ -48,7 +48,7 @@ impl Scene {
     /// The first hit that the draws accept; with `Shape::ALPHA` off, the first hit.
     #[inline(always)]
     pub fn walk<F: Shape>(&self, ray: &Ray, draws: impl FnOnce() -> Draws) -> Met {
-        let (hit, passed) = if F::ALPHA { self.accepted(ray, draws()) } else { (self.bvh.closest_hit(&self.triangles, ray), false) };
+        let (hit, passed) = if F::ALPHA { self.accepted(ray, draws()) } else { (self.bvh.closest_hit(ray), false) };
         let point = hit.map(|hit| self.surface_point_as::<F>(hit.triangle, Vec2::new(hit.b1, hit.b2)));
         Met { point, passed }
     }
@@ -56,7 +56,7 @@ impl Scene {
     #[inline(never)]
     fn accepted(&self, ray: &Ray, draws: Draws) -> (Option<Hit>, bool) {
         let passed = Cell::new(false);
-        let hit = self.bvh.closest_hit_where(&self.triangles, ray, |hit| {
+        let hit = self.bvh.closest_hit_where(ray, |hit| {
             let a = self.opacity(hit);
             let accepted = a >= 1.0 || draws.number(hit.triangle) < a;
             passed.set(passed.get() || (!accepted && a > 0.0));
@@ -71,21 +71,21 @@ impl Scene {
         if F::ALPHA {
             return self.transmittance(segment);
         }
-        f32::from(u8::from(!self.bvh.any_hit(&self.triangles, segment)))
+        f32::from(u8::from(!self.bvh.any_hit(segment)))
     }
 
     /// V of all that lies along a ray.
     #[inline]
     pub fn visibility_to_infinity<F: Shape>(&self, ray: &Ray) -> f32 {
         let mut v = 1.0;
-        self.bvh.any_hit_to_infinity(&self.triangles, ray, |hit| self.pass::<F>(hit, &mut v));
+        self.bvh.any_hit_to_infinity(ray, |hit| self.pass::<F>(hit, &mut v));
         v
     }
 
     #[inline(never)]
     fn transmittance(&self, segment: &Segment) -> f32 {
         let mut v = 1.0;
-        self.bvh.each_hit(&self.triangles, segment, |hit| self.pass::<super::General>(hit, &mut v));
+        self.bvh.each_hit(segment, |hit| self.pass::<super::General>(hit, &mut v));
         v
     }
 

@@ -1,4 +1,5 @@
-//! A binary bounding-volume hierarchy: built by `obvhs`, traversed here, watertight.
+//! A bounding-volume hierarchy: built by `obvhs` as a binary tree, which the GPU walks; the CPU walks the same boxes four at a
+//! time (`quads`). Watertight.
 //!
 //! The triangle test is Woop, Benthin, Wald 2013 ("Watertight Ray/Triangle Intersection"): two triangles that share an edge
 //! evaluate the same edge function, so no ray slips between them. No box hides a triangle that the exact ray would hit:
@@ -6,6 +7,7 @@
 //! Traversal"). All numbers of the traversal are finite: a direction component of 0 gets a large finite reciprocal.
 
 mod prepared;
+mod quads;
 #[cfg(test)]
 mod tests;
 
@@ -18,6 +20,7 @@ use obvhs::bvh2::node::Bvh2Node;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::PlocBuilder;
 use prepared::PreparedRay;
+use quads::Quads;
 use std::sync::Arc;
 
 shared_struct! {
@@ -79,10 +82,12 @@ pub enum Visit {
 /// The hierarchy; node 0 is the root. Empty for a scene without triangles.
 #[derive(Clone, Debug, Default)]
 pub struct Bvh {
-    /// The nodes. Boxes reach [`PADDING`] beyond what they hold.
+    /// The nodes, as the GPU walks them. Boxes reach [`PADDING`] beyond what they hold.
     pub nodes: Arc<[Node]>,
-    /// Depth of the tree, root = 1: the traversal stack never holds more than this. At most [`STACK_SIZE`].
+    /// Depth of the tree, root = 1: the GPU's traversal stack never holds more than this. At most [`STACK_SIZE`].
     pub depth: u32,
+    /// The same tree as the CPU walks it.
+    quads: Arc<Quads>,
 }
 
 /// Trees up to this depth are walked with a small stack.
@@ -111,23 +116,15 @@ impl Bvh {
         }
         *triangles = order.iter().map(|&i| triangles[i as usize]).collect();
         pad(&mut nodes);
-        Self { depth: depth_of(&nodes), nodes: nodes.into() }
+        Self { depth: depth_of(&nodes), quads: Quads::new(&nodes, triangles).into(), nodes: nodes.into() }
     }
 
     /// The same tree around triangles that have moved: as right as a new one, if not as good.
     #[must_use]
     pub fn refitted(&self, triangles: &[Triangle]) -> Self {
         let mut nodes = self.nodes.to_vec();
-        // Parents before their children; backwards, every node finds its children done.
-        let (mut order, mut stack) = (Vec::with_capacity(nodes.len()), if nodes.is_empty() { Vec::new() } else { vec![0] });
-        while let Some(index) = stack.pop() {
-            order.push(index);
-            let node = &nodes[index];
-            if node.count == 0 {
-                stack.extend([node.first as usize, node.first as usize + 1]);
-            }
-        }
-        for index in order.into_iter().rev() {
+        // Backwards, every node finds its children done.
+        for index in parents_first(&nodes).into_iter().rev() {
             let Node { first, count, .. } = nodes[index];
             let first = first as usize;
             let (min, max) = match count {
@@ -137,48 +134,53 @@ impl Bvh {
             (nodes[index].min, nodes[index].max) = (min, max);
         }
         pad(&mut nodes);
-        Self { depth: self.depth, nodes: nodes.into() }
+        Self { depth: self.depth, quads: Quads::new(&nodes, triangles).into(), nodes: nodes.into() }
+    }
+
+    /// Bytes of both trees.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.nodes) + self.quads.bytes()
     }
 
     /// The nearest hit with distance > 0.
     #[inline(always)]
-    pub fn closest_hit(&self, triangles: &[Triangle], ray: &Ray) -> Option<Hit> {
-        self.nearest(triangles, &PreparedRay::new(ray.origin, ray.direction), f32::MAX, |_| true)
+    pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
+        self.nearest(&PreparedRay::new(ray.origin, ray.direction), f32::MAX, |_| true)
     }
 
     /// The nearest hit with distance > 0 that is accepted.
     #[inline(always)]
-    pub fn closest_hit_where(&self, triangles: &[Triangle], ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
-        self.nearest(triangles, &PreparedRay::new(ray.origin, ray.direction), f32::MAX, accept)
+    pub fn closest_hit_where(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
+        self.nearest(&PreparedRay::new(ray.origin, ray.direction), f32::MAX, accept)
     }
 
     /// Does anything lie strictly between the ends?
     #[inline(always)]
-    pub fn any_hit(&self, triangles: &[Triangle], segment: &Segment) -> bool {
-        self.each_hit(triangles, segment, |_| Visit::Stop)
+    pub fn any_hit(&self, segment: &Segment) -> bool {
+        self.each_hit(segment, |_| Visit::Stop)
     }
 
     /// Visits everything strictly between the ends, in no order, until told to stop; was it?
     #[inline(always)]
-    pub fn each_hit(&self, triangles: &[Triangle], segment: &Segment, visit: impl FnMut(&Hit) -> Visit) -> bool {
-        self.traverse::<true>(triangles, &PreparedRay::new(segment.from, segment.to - segment.from), 1.0, visit)
+    pub fn each_hit(&self, segment: &Segment, visit: impl FnMut(&Hit) -> Visit) -> bool {
+        self.quads.traverse::<true>(&PreparedRay::new(segment.from, segment.to - segment.from), 1.0, visit)
     }
 
     /// Visits everything along a ray, in no order, until told to stop; was it?
     #[inline]
-    pub fn any_hit_to_infinity(&self, triangles: &[Triangle], ray: &Ray, visit: impl FnMut(&Hit) -> Visit) -> bool {
-        self.traverse::<true>(triangles, &PreparedRay::new(ray.origin, ray.direction), f32::MAX, visit)
+    pub fn any_hit_to_infinity(&self, ray: &Ray, visit: impl FnMut(&Hit) -> Visit) -> bool {
+        self.quads.traverse::<true>(&PreparedRay::new(ray.origin, ray.direction), f32::MAX, visit)
     }
 
     /// The accepted hit nearest to the segment's start, `distance` as a fraction of the segment.
-    pub fn closest_hit_on_segment(&self, triangles: &[Triangle], segment: &Segment, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
-        self.nearest(triangles, &PreparedRay::new(segment.from, segment.to - segment.from), 1.0, accept)
+    pub fn closest_hit_on_segment(&self, segment: &Segment, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
+        self.nearest(&PreparedRay::new(segment.from, segment.to - segment.from), 1.0, accept)
     }
 
     #[inline(always)]
-    fn nearest(&self, triangles: &[Triangle], ray: &PreparedRay, t_max: f32, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
+    fn nearest(&self, ray: &PreparedRay, t_max: f32, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
         let mut best = None;
-        self.traverse::<false>(triangles, ray, t_max, |hit| {
+        self.quads.traverse::<false>(ray, t_max, |hit| {
             if !accept(hit) {
                 return Visit::Ignore;
             }
@@ -187,71 +189,19 @@ impl Bvh {
         });
         best
     }
+}
 
-    /// Visits hits until told to stop (then true) or there is none left. With `ANY` the order does not matter, so none is kept.
-    #[inline(always)]
-    fn traverse<const ANY: bool>(&self, triangles: &[Triangle], ray: &PreparedRay, t_max: f32, visit: impl FnMut(&Hit) -> Visit) -> bool {
-        // A small scene's stack is so small that clearing it costs nothing.
-        match self.depth {
-            0..=SMALL_STACK => self.traverse_with::<{ SMALL_STACK as usize }, ANY>(triangles, ray, t_max, visit),
-            _ => self.traverse_with::<STACK_SIZE, ANY>(triangles, ray, t_max, visit),
+/// The nodes in an order in which parents come before their children.
+fn parents_first(nodes: &[Node]) -> Vec<usize> {
+    let (mut order, mut stack) = (Vec::with_capacity(nodes.len()), if nodes.is_empty() { Vec::new() } else { vec![0] });
+    while let Some(index) = stack.pop() {
+        order.push(index);
+        let node = &nodes[index];
+        if node.count == 0 {
+            stack.extend([node.first as usize, node.first as usize + 1]);
         }
     }
-
-    #[inline(always)]
-    fn traverse_with<const N: usize, const ANY: bool>(
-        &self,
-        triangles: &[Triangle],
-        ray: &PreparedRay,
-        mut t_max: f32,
-        mut visit: impl FnMut(&Hit) -> Visit,
-    ) -> bool {
-        let Some(mut node) = self.nodes.first() else { return false };
-        let mut stack = [(0u32, 0.0f32); N];
-        let mut top = 0;
-        loop {
-            if node.count > 0 {
-                let first = node.first as usize;
-                for (triangle, index) in triangles[first..first + node.count as usize].iter().zip(node.first..) {
-                    if let Some(hit) = ray.hit(triangle, index, t_max) {
-                        match visit(&hit) {
-                            Visit::Ignore => {}
-                            Visit::Nearer => t_max = hit.distance,
-                            Visit::Stop => return true,
-                        }
-                    }
-                }
-            } else {
-                // Nearer child first, the other waits on the stack with its entry distance.
-                let children = &self.nodes[node.first as usize..node.first as usize + 2];
-                let (a, b) = (&children[0], &children[1]);
-                let ((a_near, a_far), (b_near, b_far)) = (ray.span(a, t_max), ray.span(b, t_max));
-                let (hits_a, hits_b) = (a_near <= a_far, b_near <= b_far);
-                if hits_a && hits_b {
-                    let (near, far) = if ANY || a_near <= b_near { (a, (node.first + 1, b_near)) } else { (b, (node.first, a_near)) };
-                    stack[top] = far;
-                    top += 1;
-                    node = near;
-                    continue;
-                }
-                if hits_a || hits_b {
-                    node = if hits_a { a } else { b };
-                    continue;
-                }
-            }
-            loop {
-                if top == 0 {
-                    return false;
-                }
-                top -= 1;
-                let (index, entry) = stack[top];
-                if ANY || entry <= t_max {
-                    node = &self.nodes[index as usize];
-                    break;
-                }
-            }
-        }
-    }
+    order
 }
 
 /// Makes every box reach [`PADDING`] beyond what it holds.

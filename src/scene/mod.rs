@@ -132,26 +132,26 @@ impl Scene {
         fn of<T>(list: &[T]) -> usize {
             size_of_val(list)
         }
-        of(&self.triangles) + of(&self.bvh.nodes) + of(&self.materials) + of(&self.lights.list) + self.attributes.bytes()
+        of(&self.triangles) + self.bvh.bytes() + of(&self.materials) + of(&self.lights.list) + self.attributes.bytes()
     }
 
     /// The first hit of a ray, as a surface point; alpha does not count.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<SurfacePoint> {
-        let hit = self.bvh.closest_hit(&self.triangles, ray)?;
+        let hit = self.bvh.closest_hit(ray)?;
         Some(self.surface_point(&hit))
     }
 
     /// How far away, along `axis`, what a ray shows is, m: the first surface that is there more than not. `None` if there is
     /// none in front.
     pub fn depth_along(&self, ray: &Ray, axis: Vec3) -> Option<f32> {
-        let hit = self.bvh.closest_hit_where(&self.triangles, ray, |hit| self.opacity(hit) >= 0.5)?;
+        let hit = self.bvh.closest_hit_where(ray, |hit| self.opacity(hit) >= 0.5)?;
         Some((self.surface_point(&hit).position - ray.origin).dot(axis)).filter(|depth| *depth > 0.0)
     }
 
     /// What blocks a segment first, seen from its start: the first surface that lets nothing through.
     pub fn blocker(&self, segment: &Segment) -> Option<SurfacePoint> {
-        let hit = self.bvh.closest_hit_on_segment(&self.triangles, segment, |hit| self.opacity(hit) >= 1.0)?;
+        let hit = self.bvh.closest_hit_on_segment(segment, |hit| self.opacity(hit) >= 1.0)?;
         Some(self.surface_point(&hit))
     }
 

@@ -172,7 +172,7 @@ impl Textures {
 
     /// The linear value of the texel in this column and row, whole numbers; wrapped.
     #[inline]
-    fn texel(&self, texture: &Texture, at: Vec2) -> Vec4 {
+    pub fn texel(&self, texture: &Texture, at: Vec2) -> Vec4 {
         let x = wrapped(at.x, texture.width, texture.flags >> WRAP_U & 3);
         let y = wrapped(at.y, texture.height, texture.flags >> WRAP_V & 3);
         let bytes = self.texels[(texture.first + y * texture.width + x) as usize].to_le_bytes();

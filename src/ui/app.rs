@@ -8,7 +8,9 @@ use super::pictures::Pictures;
 use super::state::{Fingers, Maximised, Preferences, State};
 use super::summary::{self, Summary};
 use super::wake::Wake;
-use super::{files, fonts, help, image_view, inspector, keys, messages, phone, pyramid, space, status_bar, theme, top_bar, touch, tour};
+use super::{
+    files, fonts, help, image_view, inspector, keys, messages, phone, pyramid, space, status_bar, suggest, theme, top_bar, touch, tour,
+};
 use eframe::egui::{self, CentralPanel, Color32, Frame, Margin, Panel, Pos2, Rect, Ui, Vec2, vec2};
 use eframe::egui_wgpu::RenderState;
 use web_time::Instant;
@@ -222,6 +224,7 @@ impl eframe::App for App {
         files::drops(ui, &mut self.state, &self.live);
         self.panels(ui, frame.wgpu_render_state());
         help::show(ui.ctx(), &mut self.state);
+        suggest::show(ui.ctx(), &mut self.state, &self.live);
         link::copy(ui.ctx(), &mut self.state, &self.live);
         link::show_copied(ui.ctx(), &mut self.state);
         keys::release_after_click(ui.ctx());

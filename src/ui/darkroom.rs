@@ -181,7 +181,7 @@ impl Darkroom {
 
     /// What the two pictures differ by.
     pub fn difference(&mut self, state: &State, pair: &Pair) -> Option<Print> {
-        let sources = [state.compare.a, state.compare.b?];
+        let sources = [state.compare.a, state.compare.second()?];
         if let (Ok(a), Some(Ok(b))) = (&pair.a, &pair.b) {
             self.order(Place::Difference, &[a, b], Recipe::Difference(state.compare.metric, state.exposure));
         }

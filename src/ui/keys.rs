@@ -1,6 +1,7 @@
 //! Every key, in one table: it is what the program obeys, what the help window lists and what tooltips quote.
 
 use super::edit::history;
+use super::error;
 use super::image_view::{EXPOSURES, OFFSETS};
 use super::inspector;
 use super::space;
@@ -40,6 +41,16 @@ pub enum Action {
     Back,
     /// View, exposure and tone map as at the start.
     ResetView,
+    /// The page about error.
+    Error,
+    /// A reference is rendered, held, goes on; or is let go.
+    Reference,
+    /// The next view of the image against the reference.
+    Against,
+    /// A path tracer and a light tracer beside the image; or every strategy.
+    Rivals,
+    /// Equal samples or equal time; or the worst pixels.
+    Equal,
     /// Pause or go on.
     Pause,
     /// Hide or show the selected strategy.
@@ -119,6 +130,11 @@ pub const TABLE: &[Binding] = &[
     Binding { action: Action::Keep, shown: "K", text: Text::KeyKeep, keys: &[Key::K], shift: false },
     Binding { action: Action::Back, shown: "Esc", text: Text::KeyBack, keys: &[Key::Escape], shift: false },
     Binding { action: Action::ResetView, shown: "R", text: Text::KeyReset, keys: &[Key::R], shift: false },
+    Binding { action: Action::Error, shown: "T", text: Text::KeyError, keys: &[Key::T], shift: false },
+    Binding { action: Action::Reference, shown: "B, Shift+B", text: Text::KeyReference, keys: &[Key::B], shift: true },
+    Binding { action: Action::Against, shown: "V", text: Text::KeyAgainst, keys: &[Key::V], shift: false },
+    Binding { action: Action::Rivals, shown: "I, Shift+I", text: Text::KeyRivals, keys: &[Key::I], shift: true },
+    Binding { action: Action::Equal, shown: "J, Shift+J", text: Text::KeyEqual, keys: &[Key::J], shift: true },
     Binding { action: Action::Pause, shown: "P", text: Text::KeyPause, keys: &[Key::P], shift: false },
     Binding { action: Action::Undo, shown: "Ctrl+Z, Ctrl+Shift+Z", text: Text::KeyUndo, keys: &[Key::Z], shift: true },
     Binding { action: Action::Redo, shown: "Ctrl+Y", text: Text::KeyRedo, keys: &[Key::Y], shift: false },
@@ -285,6 +301,7 @@ pub fn perform(state: &mut State, action: Action, index: usize, shift: bool) {
             state.tonemap = crate::film::tonemap::ToneMap::Srgb;
         }
         Action::Pause => state.paused = !state.paused,
+        Action::Error | Action::Reference | Action::Against | Action::Rivals | Action::Equal => error::perform(state, action, shift),
         Action::Hide => {
             let strategy = state.selection.strategy;
             state.hidden.set(strategy, !state.hidden.contains(strategy));
@@ -332,60 +349,4 @@ fn nudge(state: &mut State, arrow: usize, step: i64) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::state::Preferences;
-    use super::*;
-
-    #[test]
-    fn every_action_has_one_row_and_every_key_one_action() {
-        let mut keys: Vec<_> = TABLE.iter().flat_map(|row| row.keys.iter().map(|key| (key.name(), row.command()))).collect();
-        let count = keys.len();
-        keys.sort_unstable();
-        keys.dedup();
-        assert_eq!(keys.len(), count);
-    }
-
-    #[test]
-    fn a_key_does_one_thing_in_the_3d_view_and_there_only_while_it_is_heard() {
-        let mut keys: Vec<&str> = SPACE.iter().flat_map(|row| row.keys).map(|key| key.name()).collect();
-        let count = keys.len();
-        keys.sort_unstable();
-        keys.dedup();
-        assert_eq!(keys.len(), count);
-        let mut state = State::new(Preferences::default(), [8, 8]);
-        assert!(!in_space(&mut state, Key::F) && state.space.frame.is_none());
-        state.space.attention.pointer = true;
-        assert!(in_space(&mut state, Key::F) && state.space.frame.is_some());
-        assert!(!in_space(&mut state, Key::ArrowLeft) && !in_space(&mut state, Key::E));
-        (state.space.attention.focus, state.space.attention.flying) = (true, true);
-        assert!(in_space(&mut state, Key::ArrowLeft) && in_space(&mut state, Key::E) && !in_space(&mut state, Key::N));
-        assert_ne!(state.space.steps, [0.0; 3]);
-    }
-
-    #[test]
-    fn actions_do_what_they_say() {
-        let mut state = State::new(Preferences::default(), [8, 8]);
-        perform(&mut state, Action::Nudge, 1, false);
-        assert_eq!(state.selection.pixel, [5, 4]);
-        perform(&mut state, Action::Nudge, 2, true);
-        assert_eq!(state.selection.pixel, [5, 0]);
-        perform(&mut state, Action::Sample, 0, true);
-        assert_eq!(state.selection.sample, 0);
-        state.select_strategy(Strategy::new(1, 3));
-        perform(&mut state, Action::Strategy, 2, false);
-        assert_eq!(state.selection.strategy, Strategy::new(2, 2));
-        perform(&mut state, Action::Strategy, 8, false);
-        assert_eq!(state.selection.strategy, Strategy::new(2, 2), "there is no ninth strategy of three edges");
-        perform(&mut state, Action::Focus, 0, false);
-        assert_eq!(state.focus_on, Some([5, 0]));
-        perform(&mut state, Action::Focus, 0, true);
-        assert!(state.picking_focus);
-        perform(&mut state, Action::Strategy, 4, false);
-        assert_eq!(state.selection.strategy, Strategy::new(4, 0), "the last one is light hits lens");
-        perform(&mut state, Action::Strategy, 2, false);
-        perform(&mut state, Action::Vertex, 0, true);
-        assert_eq!(state.selection.vertex, 3);
-        perform(&mut state, Action::Vertex, 0, false);
-        assert_eq!(state.selection.vertex, 0);
-    }
-}
+mod tests;

@@ -6,6 +6,7 @@ mod shown;
 use super::checks::Runner;
 use super::compare::Pair;
 use super::edit::reload::Reload;
+use super::error::Judged;
 use super::export::{Saver, Sources};
 use super::files::Intake;
 use super::inspector;
@@ -76,6 +77,7 @@ pub struct Live {
     noted: Option<String>,
     saver: Saver,
     checks: Runner,
+    judged: Judged,
 }
 
 impl Live {
@@ -104,6 +106,7 @@ impl Live {
             noted: None,
             saver: Saver::new(wake),
             checks: Runner::default(),
+            judged: Judged::default(),
         }
     }
 
@@ -144,6 +147,7 @@ impl Live {
                 engine.set_paused(paused);
             }
         }
+        self.judged.sync(state, self.engine.as_mut());
         self.sync_study(state);
         let searching = self.engine.as_ref().is_some_and(|engine| inspector::sync_search(state, engine));
         let new_record = self.sync_record(state);

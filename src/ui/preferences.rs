@@ -49,6 +49,8 @@ pub enum Tab {
     Scene,
     /// Is the image right?
     Checks,
+    /// How far it is from a reference.
+    Error,
 }
 
 /// The order of the strategies table.

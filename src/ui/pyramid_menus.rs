@@ -2,7 +2,7 @@
 
 use super::render_menu::menu;
 use super::state::{Gain, State};
-use super::text::{StudyText, Text};
+use super::text::{StudyText, SuggestText, Text};
 use super::widgets::{role_help, role_name};
 use crate::bdpt::{Existence, Role, Strategy, StrategySet};
 use eframe::egui::{Button, Slider, Ui};
@@ -29,6 +29,9 @@ pub fn strategies(ui: &mut Ui, state: &mut State, existence: &Existence) {
         }
         if ui.button(state.say(Text::RestoreAll)).on_hover_text(state.say(Text::HelpRestoreAll)).clicked() {
             state.settings.strategies = StrategySet::ALL;
+        }
+        if ui.button(state.say(SuggestText::Open)).on_hover_text(state.say(SuggestText::HelpOpen)).clicked() {
+            state.suggest.open = true;
         }
         ui.separator();
         families(ui, state, existence);

@@ -4,6 +4,7 @@ pub use super::checks::{Ask, ChecksState};
 pub use super::compare::{CompareState, Mode as CompareMode, Source};
 pub use super::drawn::{Drawn, Draws, Why, Wish};
 pub use super::edit::EditState;
+pub use super::error::ErrorState;
 pub use super::export::{ExportState, What};
 pub use super::files::{FilesState, Given, Purpose};
 pub use super::image_view::ViewState;
@@ -13,6 +14,7 @@ pub use super::preferences::{Gain, Preferences, Shown, Sort, Tab};
 pub use super::room::Maximised;
 pub use super::space::SpaceState;
 pub use super::study::StudyState;
+pub use super::suggest::SuggestState;
 use super::text::{Lang, Text, Words};
 pub use super::touch::Fingers;
 pub use super::tour::Before;
@@ -183,6 +185,10 @@ pub struct State {
     pub study: StudyState,
     /// The checks.
     pub checks: ChecksState,
+    /// The suggestion of strategies.
+    pub suggest: SuggestState,
+    /// Error against a reference.
+    pub error: ErrorState,
     /// Saving.
     pub export: ExportState,
     /// Files that come in without a path.
@@ -241,6 +247,8 @@ impl State {
             edit: EditState::default(),
             study: StudyState::default(),
             checks: ChecksState::default(),
+            suggest: SuggestState::default(),
+            error: ErrorState::default(),
             export: ExportState::default(),
             files: FilesState::default(),
             tour: None,

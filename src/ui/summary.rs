@@ -5,7 +5,7 @@ use super::live::Live;
 use super::state::State;
 use super::text::{InspectText, Lang, SummaryText, Text, fill};
 use super::widgets::{full_name, pair, role_name};
-use super::{format, inspector, status_bar};
+use super::{error, format, inspector, status_bar};
 use crate::bdpt::record::{PathRecord, StrategyRecord};
 use crate::bdpt::{Existence, Strategy};
 use crate::engine::Frame;
@@ -75,7 +75,9 @@ pub struct Summary {
 pub fn now(state: &State, live: &Live) -> Option<Summary> {
     let frame = live.frame().filter(|frame| live.first_pass().is_none() && frame.size == state.size);
     let subject = Subject { record: live.record(state)?, existence: &live.existence(), frame: frame.map(|frame| &**frame) };
-    Some(of(state, &subject))
+    let mut summary = of(state, &subject);
+    summary.rendering.extend(error::summary(state, live));
+    Some(summary)
 }
 
 /// The summary of a sample.

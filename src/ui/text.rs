@@ -29,6 +29,7 @@ macro_rules! texts {
 
 mod check;
 mod edit;
+mod error;
 mod export;
 mod files;
 mod inspect;
@@ -37,6 +38,7 @@ mod looks;
 mod phone;
 mod space;
 mod study;
+mod suggest;
 mod summary;
 mod table;
 mod tour;
@@ -45,6 +47,7 @@ mod web;
 
 pub use check::{CheckText, phrase_text, said};
 pub use edit::EditText;
+pub use error::ErrorText;
 pub use export::ExportText;
 pub use files::FilesText;
 pub use inspect::InspectText;
@@ -53,6 +56,7 @@ pub use looks::LooksText;
 pub use phone::PhoneText;
 pub use space::SpaceText;
 pub use study::StudyText;
+pub use suggest::SuggestText;
 pub use summary::SummaryText;
 pub use table::Text;
 pub use tour::TourText;
@@ -257,10 +261,12 @@ mod tests {
         check(Text::ALL);
         check(CheckText::ALL);
         check(EditText::ALL);
+        check(ErrorText::ALL);
         check(ExportText::ALL);
         check(FilesText::ALL);
         check(LinkText::ALL);
         check(LooksText::ALL);
+        check(SuggestText::ALL);
         check(PhoneText::ALL);
         check(InspectText::ALL);
         check(SpaceText::ALL);

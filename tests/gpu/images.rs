@@ -20,7 +20,7 @@ fn work(scene: Arc<Scene>, side: u32, settings: Settings) -> Work {
     Work::new(Job { size: [side, side], settings, weighted_layers: true, raw_layers: true, ..Job::new(scene) })
 }
 
-fn all_scenes() -> Vec<Arc<Scene>> {
+pub fn all_scenes() -> Vec<Arc<Scene>> {
     let mut list = vec![scenes::builtin("cornell"), scenes::builtin("cornell-spheres"), scenes::patches(), scenes::specular()];
     list.extend([scenes::tilted(), scenes::lamp_in_glass(), scenes::dark(), emitters_scenes::wide_lens(), emitters_scenes::dirac_room()]);
     list.extend([emitters_scenes::under_the_sky(), emitters_scenes::sky_and_glass(), emitters_scenes::everything()]);

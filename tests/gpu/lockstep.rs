@@ -179,7 +179,7 @@ impl Stepped {
 /// Is the draw for something along a ray within the margin of its alpha?
 fn alpha_is_marginal(scene: &Scene, ray: &Ray, [a, b, c, d]: [u32; 4]) -> bool {
     let near = std::cell::Cell::new(false);
-    scene.bvh.closest_hit_where(&scene.triangles, ray, |hit| {
+    scene.bvh.closest_hit_where(ray, |hit| {
         let alpha = scene.opacity(hit);
         let drawn = unit_f32(pcg4d([a, b, c, d ^ hit.triangle])[0]);
         near.set(near.get() || (alpha < 1.0 && (drawn - alpha).abs() < MARGIN));

@@ -18,6 +18,7 @@ mod measure;
 mod paths;
 mod probe;
 mod raster;
+mod robust;
 #[allow(dead_code, reason = "made for the ladder, of which this is a rung")]
 #[path = "../ladder/scenes.rs"]
 mod scenes;

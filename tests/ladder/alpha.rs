@@ -136,7 +136,7 @@ fn what_a_walk_accepts_does_not_depend_on_the_traversal() {
         let accepted = scene.walk::<General>(&Ray { origin, direction }, || draws).point;
         // By brute force: of all hits in order of distance, the first whose own number is below its alpha.
         let mut hits = Vec::new();
-        let _ = scene.bvh.any_hit_to_infinity(&scene.triangles, &Ray { origin, direction }, |hit| {
+        let _ = scene.bvh.any_hit_to_infinity(&Ray { origin, direction }, |hit| {
             hits.push(*hit);
             bdpt_explorer::scene::bvh::Visit::Ignore
         });

@@ -56,6 +56,9 @@ fn a_scene_without_light_is_black_and_says_why() {
     let record = record(session.job(), [8, 8], 0).unwrap();
     let next_event = record.strategies.iter().find(|s| s.strategy() == Strategy::new(1, 2)).unwrap();
     assert_eq!(next_event.reason, Some(Reason::NoLight));
+    // The control: a room with light is neither.
+    let lit = rendered(job(&scenes::furnace(1e-3, 0.8), [16, 16], Settings::default()), 2);
+    assert!(lit.image().iter().all(|c| c.min_element() > 0.0));
 }
 
 #[test]

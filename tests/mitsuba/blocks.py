@@ -27,8 +27,7 @@ except ImportError as missing:
 
 from agreement import average
 from materials import OURS, PRINCIPLED
-from renderers import add_options, exit_status, render_mitsuba, render_ours
-from scene import load
+from renderers import add_options, exit_status, render_mitsuba, render_ours, subject
 
 # Side of a block, pixels; how far its mean may be off; how many of the blocks must not be.
 BLOCK, TOLERANCE, SHARE = 32, 0.10, 0.95
@@ -52,7 +51,7 @@ def main() -> int:
 
 def run(args: argparse.Namespace) -> int:
     """Renders both, compares, and says what came out."""
-    scene = load(args.scene, args.materials)
+    scene = subject(args, args.materials)
     for note in scene.notes:
         print(f"note: {note}", file=sys.stderr)
     start = time.monotonic()

@@ -34,8 +34,7 @@ except ImportError as missing:
 
 from agreement import BLOCK, BLOCK_LIMIT, MEAN_LIMIT, average, compare, judge
 from gltf import Unusable
-from renderers import add_options, exit_status, render_mitsuba, render_ours
-from scene import load
+from renderers import add_options, exit_status, render_mitsuba, render_ours, subject
 
 
 def main() -> int:
@@ -52,7 +51,7 @@ def run(args: argparse.Namespace) -> int:
     """Renders both, compares, and says what came out."""
     if args.seeds < 16:
         raise Unusable(f"--seeds {args.seeds}: fewer than 16 do not tell their own variance")
-    scene = load(args.scene)
+    scene = subject(args)
     for note in scene.notes:
         print(f"note: {note}", file=sys.stderr)
     start = time.monotonic()

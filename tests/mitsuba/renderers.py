@@ -7,13 +7,16 @@ import subprocess
 import sys
 import tempfile
 import traceback
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import mitsuba as mi
 import numpy as np
 
+import variant
 from gltf import Unusable
-from scene import Scene, rgb_picture, to_mitsuba
+from materials import OURS, PRINCIPLED
+from scene import Scene, load, rgb_picture, to_mitsuba
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 # Mitsuba's compiled variants hold all samples of a picture at once.
@@ -34,6 +37,8 @@ def add_options(parser: argparse.ArgumentParser, defaults: dict) -> None:
         ("--scale", float, "F", 1.0, "negative control: multiplies our picture by F"),
     ]
     parser.add_argument("scene", type=Path, metavar="SCENE", help="a .glb or .gltf file")
+    text = "Mitsuba gets what the program's `export` writes, of a built-in scene too"
+    parser.add_argument("--export", action="store_true", help=text)
     for name, kind, metavar, default, text in options:
         value = defaults.get(name[2:], default)
         shown = "x".join(map(str, value)) if isinstance(value, tuple) else value
@@ -61,32 +66,71 @@ def seeds(args: argparse.Namespace) -> range:
     return range(args.first_seed, args.first_seed + args.seeds)
 
 
+@dataclass
+class Exported:
+    """A scene that the program itself wrote for Mitsuba, in place of `scene.Scene`."""
+
+    scene: mi.Scene
+    variant: str
+    models: set[str] = field(default_factory=set)
+    notes: list[str] = field(default_factory=list)
+
+
+def subject(args: argparse.Namespace, model: str = OURS) -> Scene | Exported:
+    """What Mitsuba is to render: read by this program, or written by the other one."""
+    if not args.export:
+        return load(args.scene, model)
+    with tempfile.TemporaryDirectory() as folder:
+        command = ["export", args.scene, "--format", "mitsuba", "-o", folder, *view(args)]
+        said = run_program(args, command + (["--plugins"] if model == OURS else []))
+        notes = [line.removeprefix("note: ") for line in said.splitlines()]
+        mi.set_variant(variant.PLAIN)
+        models = {PRINCIPLED} if any("`principled`" in note for note in notes) else set()
+        if list(Path(folder).glob("*.py")):
+            variant.use_plugins()
+            models = {OURS}
+        scene = mi.load_file(str(Path(folder) / "scene.xml"))
+    return Exported(scene, mi.variant(), models, notes)
+
+
+def view(args: argparse.Namespace) -> list:
+    """What of the scene both programs show."""
+    return ["--size", "x".join(map(str, args.size)), "--max-edges", args.max_edges]
+
+
+def run_program(args: argparse.Namespace, command: list) -> str:
+    """Runs the program; what it said on stderr."""
+    try:
+        words = [str(part) for part in [args.program, *command]]
+        done = subprocess.run(words, capture_output=True)
+    except OSError as error:
+        reason = f"cannot be run ({error.strerror}); build it, or use --program"
+        raise Unusable(f"{args.program}: {reason}") from error
+    said = done.stderr.decode(errors="replace").strip()
+    if done.returncode != 0:
+        raise Unusable(f"the program failed: {said}")
+    return said
+
+
 def render_ours(args: argparse.Namespace) -> np.ndarray:
     """The program's pictures, [seed, y, x, channel]."""
     pictures = []
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "ours.exr"
-        command = [args.program, "render", args.scene, "-o", file, "--spp", args.spp]
-        command += ["--size", "x".join(map(str, args.size)), "--max-edges", args.max_edges]
+        command = ["render", args.scene, "-o", file, "--spp", args.spp, *view(args)]
         for seed in seeds(args):
-            try:
-                done = subprocess.run(
-                    [str(part) for part in [*command, "--seed", seed]], capture_output=True
-                )
-            except OSError as error:
-                reason = f"cannot be run ({error.strerror}); build it, or use --program"
-                raise Unusable(f"{args.program}: {reason}") from error
-            if done.returncode != 0:
-                said = done.stderr.decode(errors="replace").strip()
-                raise Unusable(f"the program failed: {said}")
+            run_program(args, [*command, "--seed", seed])
             pictures.append(rgb_picture(file))
     return np.stack(pictures) * args.scale
 
 
-def render_mitsuba(scene: Scene, args: argparse.Namespace) -> np.ndarray:
+def render_mitsuba(scene: Scene | Exported, args: argparse.Namespace) -> np.ndarray:
     """Mitsuba's pictures, [seed, y, x, channel]."""
-    with tempfile.TemporaryDirectory() as folder:
-        loaded = mi.load_dict(to_mitsuba(scene, Path(folder), args.size, args.max_edges))
+    if isinstance(scene, Exported):
+        loaded = scene.scene
+    else:
+        with tempfile.TemporaryDirectory() as folder:
+            loaded = mi.load_dict(to_mitsuba(scene, Path(folder), args.size, args.max_edges))
     spp = args.mitsuba_spp or args.spp
     parts = -(-spp * args.size[0] * args.size[1] // MOST_AT_ONCE)
     pictures = []

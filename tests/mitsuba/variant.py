@@ -8,7 +8,11 @@ from __future__ import annotations
 
 import os
 import re
+import sys
 from pathlib import Path
+
+# What Mitsuba lacks is the program's own: `export` writes it beside its scenes.
+sys.path.append(str(Path(__file__).resolve().parents[2] / "src/report/mitsuba"))
 
 # Dr.Jit takes the first library that it finds, and stops the whole process if that one is too old.
 OLDEST_LLVM = 17
@@ -51,8 +55,6 @@ def use_plugins() -> None:
 
 if __name__ == "__main__":
     # Can everything be compared here?
-    import sys
-
     try:
         use_plugins()
         print(f"Mitsuba {mi.__version__}, {LLVM}")

@@ -3,6 +3,7 @@
 
 use super::stats::Interval;
 use super::{Clock, MethodResult, Point, SceneResult};
+use crate::report::axis::{Axis, label};
 use crate::report::export::svg_parts::{At, Drawing, number};
 
 /// Okabe and Ito's colours that can be seen on white.
@@ -67,36 +68,6 @@ fn series(result: &MethodResult, along: Along, clock: Clock) -> Vec<Place> {
     (0..points).filter_map(place).collect()
 }
 
-/// A logarithmic axis.
-#[derive(Clone, Copy, Debug)]
-struct Axis {
-    low: f64,
-    high: f64,
-}
-
-impl Axis {
-    /// An axis that holds these values, with some room.
-    fn over(values: impl Iterator<Item = f64>) -> Self {
-        let logs = values.filter(|x| *x > 0.0 && x.is_finite()).map(f64::log10);
-        let (low, high) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-        if low > high { Self { low: 0.0, high: 1.0 } } else { Self { low: low - 0.1, high: high + 0.1 } }
-    }
-
-    /// 0…1 along it.
-    fn place(self, value: f64) -> f64 {
-        (value.log10() - self.low) / (self.high - self.low)
-    }
-
-    /// Where numbers stand: at every power of ten, and at 2 and 5 between them where these are few.
-    fn ticks(self) -> Vec<f64> {
-        let wide = self.high - self.low > 2.5;
-        let steps: &[f64] = if wide { &[1.0] } else { &[1.0, 2.0, 5.0] };
-        let decades = (self.low.floor() as i32)..=(self.high.ceil() as i32);
-        let all = decades.flat_map(|decade| steps.iter().map(move |step| step * 10f64.powi(decade)));
-        all.filter(|tick| (0.0..=1.0).contains(&self.place(*tick))).collect()
-    }
-}
-
 struct Plot {
     axes: [Axis; 2],
     drawing: Drawing,
@@ -116,12 +87,12 @@ impl Plot {
         for tick in self.axes[0].ticks() {
             let x = CORNER[0] + LENGTH[0] * self.axes[0].place(tick);
             self.line([[x, CORNER[1]], [x, CORNER[1] - LENGTH[1]]], thin);
-            self.drawing.text([x, CORNER[1] + 18.0], "m", &short(tick));
+            self.drawing.text([x, CORNER[1] + 18.0], "m", &label(tick));
         }
         for tick in self.axes[1].ticks() {
             let y = CORNER[1] - LENGTH[1] * self.axes[1].place(tick);
             self.line([[CORNER[0], y], [CORNER[0] + LENGTH[0], y]], thin);
-            self.drawing.add(&format!(r#"<text x="{:.1}" y="{:.1}" text-anchor="end">{}</text>"#, CORNER[0] - 6.0, y + 4.0, short(tick)));
+            self.drawing.add(&format!(r#"<text x="{:.1}" y="{:.1}" text-anchor="end">{}</text>"#, CORNER[0] - 6.0, y + 4.0, label(tick)));
         }
         let [[left, bottom], right, top] = [CORNER, [CORNER[0] + LENGTH[0], CORNER[1]], [CORNER[0], CORNER[1] - LENGTH[1]]];
         let ink = "stroke=\"#202020\" stroke-width=\"1.5\"";
@@ -164,13 +135,6 @@ impl Plot {
         self.line([[key[0] - 14.0, key[1]], [key[0] + 14.0, key[1]]], &paint);
         self.drawing.text([key[0] + 22.0, key[1] + 4.0], "w", label);
     }
-}
-
-/// A tick's number.
-fn short(value: f64) -> String {
-    // A power of ten that lies a little below itself counts as one.
-    let decade = (value.log10() + 1e-9).floor() as i32;
-    if (-3..4).contains(&decade) { format!("{value:.*}", (-decade).max(0) as usize) } else { format!("{value:.0e}") }
 }
 
 /// The mark of a series: another shape for each of the first six.
@@ -265,14 +229,5 @@ mod tests {
         let lines = wrapped(&text);
         assert!(lines.len() == 3 && lines.iter().all(|line| line.len() <= 120), "{lines:?}");
         assert_eq!(lines.join(" "), text.trim());
-    }
-
-    #[test]
-    fn ticks_are_round_numbers_inside() {
-        let axis = Axis::over([1.0, 64.0].into_iter());
-        assert_eq!(axis.ticks(), [1.0, 2.0, 5.0, 10.0, 20.0, 50.0]);
-        let wide = Axis::over([1e-4, 0.3].into_iter());
-        assert_eq!(wide.ticks().iter().map(|tick| short(*tick)).collect::<Vec<_>>(), ["1e-4", "0.001", "0.01", "0.1"]);
-        assert_eq!(Axis::over([0.0, f64::NAN].into_iter()).ticks().len(), 4, "nothing to show is no reason to fail");
     }
 }

@@ -4,7 +4,7 @@ use super::super::format;
 use super::super::keys::{self, Action};
 use super::super::live::Live;
 use super::super::state::{Purpose, State};
-use super::super::text::{FilesText, Text, ViewText, fill};
+use super::super::text::{FilesText, Text, ViewText, Words, fill};
 use super::super::widgets::{full_name, keep_together};
 use super::source::{name, rendered, short_name, takes_part};
 use super::{Mode, Reading, Source};
@@ -45,7 +45,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, figures: Option<Figures
         if ui.button(state.say(ViewText::Keep)).on_hover_text(hint).clicked() {
             state.compare.keep = true;
         }
-        shelf(ui, state, live);
+        shelf(ui, state, live, ViewText::Load);
         equal(ui, state, live);
     });
     if let Some(figures) = figures {
@@ -72,8 +72,9 @@ pub fn choose(ui: &mut Ui, state: &State, live: &Live, (label, help, current): (
             let words = fill(state.say(ViewText::SelectedStrategy), &[&full_name(selected, state.prefs.lang)]);
             row(ui, source, &words, &words);
         }
-        for kept in state.compare.kept.iter().rev() {
-            let source = Source::Kept(kept.id);
+        let rendered = state.compare.reference.filter(|source| *source == Source::Reference);
+        let kept = state.compare.kept.iter().rev().map(|kept| Source::Kept(kept.id));
+        for source in rendered.into_iter().chain(kept) {
             let words = name(state, live, source);
             row(ui, source, &words, &words);
         }
@@ -117,10 +118,10 @@ fn ways(ui: &mut Ui, state: &mut State) {
 }
 
 /// The pictures kept, each to be forgotten, and a field to read another.
-fn shelf(ui: &mut Ui, state: &mut State, live: &Live) {
+pub fn shelf(ui: &mut Ui, state: &mut State, live: &Live, label: impl Words) {
     // A click into the field must not close the menu.
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    let menu = MenuButton::new(state.say(ViewText::Load)).config(config);
+    let menu = MenuButton::new(state.say(label)).config(config);
     let (response, _) = menu.ui(ui, |ui| {
         ui.set_min_width(FIELD + 70.0);
         if state.files.by_path {

@@ -68,7 +68,9 @@ impl Keeper {
             }
             Ok(picture) => {
                 let id = state.compare.add(About::File(name), Arc::new(picture), None);
-                state.compare.b = Some(Source::Kept(id));
+                // A picture from a file is one to compare with: it is taken for right.
+                state.compare.forget_reference();
+                (state.compare.reference, state.compare.b) = (Some(Source::Kept(id)), Some(Source::Kept(id)));
                 state.compare.open = true;
             }
         }

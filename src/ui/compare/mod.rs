@@ -6,10 +6,10 @@ mod keeper;
 mod pair;
 mod source;
 
-pub use bar::{choose, metric_text, show};
+pub use bar::{choose, metric_text, shelf, show};
 pub use keeper::Keeper;
 pub use pair::{Pair, Value};
-pub use source::{Content, Missing, Source, Sourced, name, samples, short_name, takes_part};
+pub use source::{Content, Missing, Source, Sourced, integrator, name, samples, short_name, takes_part};
 
 use crate::film::difference::Metric;
 use crate::film::picture::Picture;
@@ -111,6 +111,8 @@ pub struct CompareState {
     pub peeking: bool,
     /// Where the line of the split is: 0 at the left end of the view, 1 at the right.
     pub split: f32,
+    /// What is taken for right: a reference that is rendered meanwhile, or one that was kept or read.
+    pub reference: Option<Source>,
     /// The pictures kept, oldest first.
     pub kept: Vec<Kept>,
     /// How many were ever kept.
@@ -134,6 +136,7 @@ impl Default for CompareState {
             flipped: false,
             peeking: false,
             split: 0.5,
+            reference: None,
             kept: Vec::new(),
             count: 0,
             keep: false,
@@ -144,13 +147,13 @@ impl Default for CompareState {
 }
 
 impl CompareState {
-    /// Adds a picture, and lets the oldest go. What showed that one shows the image, or nothing, instead.
+    /// Adds a picture, and lets the oldest go that is not the reference. What showed that one shows the image, or nothing, instead.
     pub fn add(&mut self, about: About, picture: Arc<Picture>, scale: Option<Scale>) -> u32 {
         self.count += 1;
         self.kept.push(Kept { id: self.count, about, picture, scale });
         while self.kept.len() > MOST_KEPT {
-            let id = self.kept.first().map_or(0, |oldest| oldest.id);
-            self.remove(id);
+            let oldest = self.kept.iter().map(|kept| kept.id).find(|id| self.reference != Some(Source::Kept(*id)));
+            self.remove(oldest.unwrap_or(0));
         }
         self.count
     }
@@ -158,19 +161,37 @@ impl CompareState {
     /// Lets a kept picture go.
     pub fn remove(&mut self, id: u32) {
         self.kept.retain(|kept| kept.id != id);
-        if self.a == Source::Kept(id) {
-            self.a = Source::Image;
-        }
-        if self.b == Some(Source::Kept(id)) {
-            self.b = None;
+        self.forget(Source::Kept(id));
+    }
+
+    /// Nothing is the reference any more.
+    pub fn forget_reference(&mut self) {
+        match self.reference.take() {
+            // A picture that is kept can still be compared with.
+            None | Some(Source::Kept(_)) => {}
+            Some(source) => self.forget(source),
         }
     }
 
-    /// Opens or closes the bar. With nothing to compare with yet, the newest picture that was kept will do.
+    /// Shows a picture no more.
+    fn forget(&mut self, source: Source) {
+        if self.a == source {
+            self.a = Source::Image;
+        }
+        if self.b == Some(source) {
+            self.b = None;
+        }
+        if self.reference == Some(source) {
+            self.reference = None;
+        }
+    }
+
+    /// Opens or closes the bar. With nothing to compare with yet, the reference or the newest picture that was kept will do.
     pub fn toggle(&mut self) {
         self.open = !self.open;
         if self.open && self.b.is_none() {
-            self.b = self.kept.iter().rev().map(|kept| Source::Kept(kept.id)).find(|source| *source != self.a);
+            let reference = self.reference.filter(|source| *source != self.a);
+            self.b = reference.or_else(|| self.kept.iter().rev().map(|kept| Source::Kept(kept.id)).find(|source| *source != self.a));
         }
     }
 
@@ -186,9 +207,18 @@ impl CompareState {
         };
     }
 
-    /// What is compared with now: nothing while the bar is closed.
+    /// The next way to look at the image against the reference: signed difference, relative error, the image alone.
+    pub fn against(&mut self) {
+        let Some(reference) = self.reference else { return };
+        let now = (self.open && self.b == Some(reference) && self.mode == Mode::Difference).then_some(self.metric);
+        self.open = now != Some(Metric::RelativeSquared);
+        (self.a, self.b, self.mode) = (Source::Image, Some(reference), if self.open { Mode::Difference } else { Mode::Flip });
+        self.metric = if now == Some(Metric::Signed) { Metric::RelativeSquared } else { Metric::Signed };
+    }
+
+    /// What is compared with now: while the bar is closed nothing, but the reference at a peek.
     pub fn second(&self) -> Option<Source> {
-        self.b.filter(|_| self.open)
+        self.b.filter(|_| self.open).or(self.reference.filter(|_| self.peeking))
     }
 
     /// What is on show.
@@ -260,6 +290,42 @@ mod tests {
         assert_eq!(seen, [Display::A, Display::Split, Display::Difference]);
         compare.flipped = true;
         assert_eq!(compare.display(), Display::B);
+    }
+
+    #[test]
+    fn a_peek_shows_the_reference_and_views_against_it_take_turns() {
+        let mut compare = CompareState { reference: Some(Source::Reference), ..CompareState::default() };
+        assert_eq!((compare.second(), compare.display()), (None, Display::A));
+        compare.peeking = true;
+        assert_eq!((compare.second(), compare.display()), (Some(Source::Reference), Display::B));
+        compare.peeking = false;
+        let mut seen = Vec::new();
+        for _ in 0..3 {
+            compare.against();
+            seen.push((compare.display(), compare.metric));
+        }
+        assert_eq!(seen[..2], [(Display::Difference, Metric::Signed), (Display::Difference, Metric::RelativeSquared)]);
+        assert_eq!(seen[2].0, Display::A);
+        // While something else is compared, a peek is at that.
+        (compare.open, compare.b, compare.peeking) = (true, Some(Source::Kept(1)), true);
+        assert_eq!(compare.second(), Some(Source::Kept(1)));
+        compare.b = Some(Source::Reference);
+        compare.forget_reference();
+        assert_eq!((compare.b, compare.reference), (None, None));
+        compare.against();
+        assert_eq!(compare.second(), None, "without a reference there is nothing to see");
+    }
+
+    #[test]
+    fn the_reference_is_not_the_one_that_goes() {
+        let mut compare = CompareState::default();
+        compare.reference = Some(Source::Kept(compare.add(About::File("right".into()), picture(), None)));
+        for _ in 0..2 * MOST_KEPT {
+            compare.add(About::File("x".into()), picture(), None);
+        }
+        assert_eq!((compare.kept.len(), compare.kept[0].id), (MOST_KEPT, 1));
+        compare.remove(1);
+        assert_eq!(compare.reference, None);
     }
 
     #[test]

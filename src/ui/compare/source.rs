@@ -4,7 +4,7 @@ use super::super::format;
 use super::super::live::Live;
 use super::super::state::State;
 use super::super::study::mode_texts;
-use super::super::text::{Lang, Text, ViewText, fill};
+use super::super::text::{ErrorText, Lang, Text, ViewText, fill};
 use super::super::widgets::full_name;
 use super::{About, Kept, Rendered};
 use crate::bdpt::{HeuristicKind, Settings, Strategy, StrategySet};
@@ -24,6 +24,8 @@ pub enum Source {
     Strategy(Strategy, Mode),
     /// A kept one, by its number.
     Kept(u32),
+    /// The reference that is rendered meanwhile.
+    Reference,
 }
 
 /// Its pixels.
@@ -142,6 +144,11 @@ pub fn find(state: &State, live: &Live, source: Source) -> Result<Sourced, Missi
             let kept = state.compare.kept.iter().find(|kept| kept.id == id).ok_or(Missing::NotThere)?;
             Sourced { source, stamp: [0, u64::from(id)], content: Content::Kept(Arc::clone(&kept.picture), kept.scale) }
         }
+        Source::Reference if state.compare.reference != Some(source) => return Err(Missing::NotThere),
+        Source::Reference => {
+            let reference = live.reference().ok_or(Missing::Coming)?;
+            Sourced { source, stamp: [0, u64::from(reference.version)], content: Content::Kept(reference.picture, None) }
+        }
     };
     match found.content.size() {
         size if size == state.size => Ok(found),
@@ -177,6 +184,7 @@ pub fn short_name(state: &State, source: Source) -> String {
             Some(Kept { about: About::File(name), .. }) => name.clone(),
             _ => fill(state.say(ViewText::KeptNumber), &[&id.to_string()]),
         },
+        Source::Reference => state.say(ErrorText::Reference).to_owned(),
     }
 }
 
@@ -205,8 +213,12 @@ pub fn rendered(state: &State, live: &Live, source: Source) -> Option<Rendered> 
     if frame.generation != engine.generation() {
         return None;
     }
-    // What is counted beside the renderer has samples of its own.
+    // What is counted or rendered beside the image has samples of its own.
     let (spp, seconds) = match source {
+        Source::Reference => {
+            let reference = live.reference()?;
+            (f64::from(reference.spp), Some(reference.seconds))
+        }
         Source::Strategy(strategy, mode) => {
             let picture = engine.picture(engine::Source::Strategy(strategy, mode))?;
             (picture.spp, (mode == Mode::Weighted).then_some(frame.stats.seconds))
@@ -214,14 +226,16 @@ pub fn rendered(state: &State, live: &Live, source: Source) -> Option<Rendered> 
         _ => (frame.stats.spp, Some(frame.stats.seconds)),
     };
     let job = engine.job();
+    let right = source == Source::Reference;
+    let settings = if right { Settings { strategies: StrategySet::ALL, ..job.settings } } else { job.settings };
     Some(Rendered {
         source,
         scene: job.scene.name.clone(),
         edited: !job.scene.edits.is_empty(),
         moved: job.pose.is_some(),
         lens: job.lens,
-        settings: job.settings,
-        hidden: state.left_out(&live.existence()).0,
+        settings,
+        hidden: if right { 0 } else { state.left_out(&live.existence()).0 },
         spp,
         seconds,
     })
@@ -263,7 +277,8 @@ pub fn samples(spp: f64) -> String {
     if (spp - spp.round()).abs() < 0.05 { format!("{spp:.0}") } else { format!("{spp:.1}") }
 }
 
-fn integrator(set: &StrategySet, lang: Lang) -> &'static str {
+/// A set of strategies by the integrator that it is.
+pub fn integrator(set: &StrategySet, lang: Lang) -> &'static str {
     if *set == StrategySet::ALL {
         Text::IntegratorAll.in_language(lang)
     } else if *set == StrategySet::path_tracer() {

@@ -149,7 +149,7 @@ fn pictures(painter: &Painter, state: &State, darkroom: &mut Darkroom, pair: &Pa
     };
     let missing = |found: &Result<Sourced, Missing>| found.as_ref().err().copied();
     let a = |darkroom: &mut Darkroom| (darkroom.picture(state, Place::A, state.compare.a, pair.a.as_ref().ok()), missing(&pair.a));
-    let b = |darkroom: &mut Darkroom| match (&pair.b, state.compare.b) {
+    let b = |darkroom: &mut Darkroom| match (&pair.b, state.compare.second()) {
         (Some(found), Some(source)) => (darkroom.picture(state, Place::B, source, found.as_ref().ok()), missing(found)),
         _ => (None, None),
     };

@@ -21,7 +21,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, (pair, panel, marked): 
     if pair.display == Display::Split {
         divider(ui, state, panel);
     }
-    let (a, b) = (state.compare.a, state.compare.b);
+    let (a, b) = (state.compare.a, state.compare.second());
     let [left, right] = match pair.display {
         Display::Split => {
             let (left, right) = panel.split_left_right_at_fraction(state.compare.split);
@@ -54,7 +54,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live, (pair, panel, marked): 
 /// Why something is not shown, and what is wrong with what is.
 fn sentences(state: &State, pair: &Pair, marked: usize) -> Vec<String> {
     let mut sentences = Vec::new();
-    let shown = [(state.compare.a, Some(&pair.a)), (state.compare.b.unwrap_or(Source::Image), pair.b.as_ref())];
+    let shown = [(state.compare.a, Some(&pair.a)), (state.compare.second().unwrap_or(Source::Image), pair.b.as_ref())];
     for (source, found) in shown {
         match found.and_then(|found| found.as_ref().err()) {
             Some(Missing::Size(size)) => {

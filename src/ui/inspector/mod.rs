@@ -22,9 +22,9 @@ use super::cite::cite;
 use super::keys::{self, Action};
 use super::live::Live;
 use super::state::{State, Tab};
-use super::text::{InspectText, Text, absence_text, fill, reason_text};
+use super::text::{ErrorText, InspectText, Text, absence_text, fill, reason_text};
 use super::widgets::{finite, full_name, labelled};
-use super::{checks, edit, format};
+use super::{checks, edit, error, format};
 use crate::bdpt::record::StrategyRecord;
 use crate::bdpt::{Existence, Heuristic, Strategy};
 use eframe::egui::{self, DragValue, Label, Response, RichText, ScrollArea, Ui};
@@ -61,7 +61,7 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
 
 /// What is above the page: whose numbers these are, and which walk is listed.
 fn heads(ui: &mut Ui, state: &mut State, live: &Live) {
-    if !matches!(state.prefs.tab, Tab::Scene | Tab::Checks) {
+    if !matches!(state.prefs.tab, Tab::Scene | Tab::Checks | Tab::Error) {
         header(ui, state, live);
     }
     if let (Tab::Path, Some(record)) = (state.prefs.tab, live.record(state).cloned()) {
@@ -74,6 +74,7 @@ fn page(ui: &mut Ui, state: &mut State, live: &Live) {
         Tab::Scene => return edit::show(ui, state, live),
         Tab::Pixel => return pixel::show(ui, state, live),
         Tab::Checks => return checks::show(ui, state, live),
+        Tab::Error => return error::show(ui, state, live),
         _ => {}
     }
     let Some(record) = live.record(state).cloned() else {
@@ -102,6 +103,7 @@ fn tabs(ui: &mut Ui, state: &mut State) {
             (Tab::Splits, state.say(Text::TabSplits), state.say(Text::HelpTabSplits)),
             (Tab::Scene, state.say(Text::TabScene), state.say(Text::HelpTabScene)),
             (Tab::Checks, state.say(Text::TabChecks), state.say(Text::HelpTabChecks)),
+            (Tab::Error, state.say(ErrorText::Tab), state.say(ErrorText::HelpTab)),
         ] {
             ui.selectable_value(&mut state.prefs.tab, tab, name).on_hover_text(help);
         }

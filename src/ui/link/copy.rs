@@ -53,7 +53,7 @@ impl Outgoing<'_> {
         let scene = if let Shared::File(name) = &self.link.scene { Some(name) } else { None };
         let sky = if let Some(Shared::File(name)) = &self.link.environment { Some(name) } else { None };
         words.extend(scene.into_iter().chain(sky).map(|name| fill(state.say(LinkText::WithoutFile), &[name])));
-        let kept = |source: &Source| matches!(source, Source::Kept(_));
+        let kept = |source: &Source| matches!(source, Source::Kept(_) | Source::Reference);
         if !self.pending && (kept(&state.compare.a) || state.compare.b.as_ref().is_some_and(kept)) {
             words.push(state.say(LinkText::WithoutKept).to_owned());
         }

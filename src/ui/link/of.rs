@@ -51,6 +51,8 @@ impl Link {
             space,
             edit,
             checks,
+            suggest: _,
+            error: _,
             export: _,
             files: _,
             tour: _,
@@ -178,9 +180,9 @@ fn layout(state: &State) -> Layout {
 fn picture(state: &State) -> Picture {
     let ViewState { offset, pointer: _, one_to_one: _ } = state.view;
     let Shown { eye, light, connections, blocked, splats, names, legend } = state.prefs.shown;
-    let CompareState { open, a, b, mode, metric, flipped, peeking: _, split, kept: _, count: _, keep: _, field: _, load: _ } =
+    let CompareState { open, a, b, mode, metric, flipped, peeking: _, split, reference: _, kept: _, count: _, keep: _, field: _, load: _ } =
         state.compare;
-    let travels = |source: &Source| !matches!(source, Source::Kept(_));
+    let travels = |source: &Source| !matches!(source, Source::Kept(_) | Source::Reference);
     Picture {
         exposure: state.exposure,
         offset,

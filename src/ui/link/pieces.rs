@@ -165,6 +165,7 @@ const TAB: OneOf<Tab> = OneOf(&[
     (Tab::Splits, "splits"),
     (Tab::Scene, "scene"),
     (Tab::Checks, "checks"),
+    (Tab::Error, "error"),
 ]);
 
 const MODE: OneOf<Mode> = OneOf(&[
@@ -267,7 +268,7 @@ impl Codec for Placed {
     }
 }
 
-/// Which picture: "image", "s1t2", "s1t2.raw". Kept ones do not travel.
+/// Which picture: "image", "s1t2", "s1t2.raw". Kept ones and references do not travel.
 struct OneSource;
 
 impl Codec for OneSource {
@@ -277,7 +278,7 @@ impl Codec for OneSource {
         match source {
             Source::Strategy(strategy, Mode::Weighted) => strategy.to_string(),
             Source::Strategy(strategy, mode) => format!("{strategy}.{}", MODE.write(mode)),
-            Source::Image | Source::Kept(_) => "image".to_owned(),
+            Source::Image | Source::Kept(_) | Source::Reference => "image".to_owned(),
         }
     }
 

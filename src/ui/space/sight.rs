@@ -105,7 +105,7 @@ impl<'a> Sight<'a> {
     pub fn surface_at(&self, at: Pos2) -> Option<Vec3> {
         let (origin, w) = self.ray(at);
         let ray = crate::scene::Ray { origin, direction: w.normalize() };
-        let hit = self.scene.bvh.closest_hit_where(&self.scene.triangles, &ray, |hit| self.is_drawn(hit, origin, false))?;
+        let hit = self.scene.bvh.closest_hit_where(&ray, |hit| self.is_drawn(hit, origin, false))?;
         Some(origin + ray.direction * hit.distance)
     }
 
@@ -123,7 +123,7 @@ impl<'a> Sight<'a> {
         let eye = self.projector.view().position;
         let segment = Segment { from: p.lerp(eye, OFF), to: eye };
         let visit = |hit: &Hit| if self.is_drawn(hit, eye, true) { Visit::Stop } else { Visit::Ignore };
-        self.scene.bvh.each_hit(&self.scene.triangles, &segment, visit)
+        self.scene.bvh.each_hit(&segment, visit)
     }
 
     fn parts(&self, a: [f64; 3], b: [f64; 3]) -> Vec<Part> {

@@ -8,7 +8,7 @@ texts! { LinkText;
     NoClipboard: "This page came over plain HTTP, where browsers let nothing be copied: take the link from the address bar.", "此页面经由普通 HTTP 加载，浏览器不允许复制：请从地址栏复制链接。";
     WithoutEdits: "The changes of the scene are not in it: they would make it too long.", "其中不含对场景的更改：否则链接过长。";
     WithoutFile: "{} does not travel with it, only its name: whoever opens the link needs the file.", "链接只包含文件名 {}，不含文件本身：打开链接的人需要有该文件。";
-    WithoutKept: "Kept pictures do not travel with it.", "保留的画面不会随链接传递。";
+    WithoutKept: "Kept pictures do not travel with it, nor do references.", "保留的画面和参考图不会随链接传递。";
     // What was not followed.
     Ignored: "Not everything in the link could be followed: {}.", "链接中有些内容无法采用：{}。";
     Unknown: "“{}” is not known here", "不认识“{}”";

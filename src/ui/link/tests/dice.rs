@@ -60,7 +60,7 @@ pub fn random_state(dice: &mut Dice, scene: &Scene) -> State {
     let [eye, light, connections, blocked, splats, names, legend] = [(); 7].map(|()| dice.one_in(2));
     prefs.shown = Shown { eye, light, connections, blocked, splats, names, legend };
     (prefs.gain, prefs.cell) = (dice.of(&[Gain::Same, Gain::Each]), dice.real(64.0, 260.0));
-    prefs.tab = dice.of(&[Tab::Strategies, Tab::Pixel, Tab::Path, Tab::Splits, Tab::Scene, Tab::Checks]);
+    prefs.tab = dice.of(&[Tab::Strategies, Tab::Pixel, Tab::Path, Tab::Splits, Tab::Scene, Tab::Checks, Tab::Error]);
     prefs.sort = dice.of(&[Sort::Length, Sort::Weight, Sort::Contribution]);
     [prefs.inspector_open, prefs.pyramid_open, prefs.space_open, prefs.camera_open] = [(); 4].map(|()| dice.one_in(2));
     state.camera = dice.below(scene.cameras.len());

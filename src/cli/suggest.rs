@@ -1,0 +1,37 @@
+//! `suggest`: which strategies a scene needs, judged by a short pilot run.
+
+use super::args::SuggestArgs;
+use super::job::prepare;
+use super::{Failure, print};
+use crate::bdpt::pilot::Judged;
+use std::fmt::Write;
+
+/// Rows of the table.
+const ROWS: usize = 10;
+
+/// Carries out `suggest`.
+pub fn run(args: &SuggestArgs) -> Result<(), Failure> {
+    let job = prepare(&args.estimator, false)?.job;
+    job.check()?;
+    print(&table(&args.estimator.scene, &job.judge_strategies()));
+    Ok(())
+}
+
+/// The candidates, the best first, and what to do.
+fn table(scene: &str, judged: &[Judged]) -> String {
+    let mut text = "efficiency  variance    cost  strategies\n".to_owned();
+    for x in judged.iter().take(ROWS) {
+        let (low, high) = ((x.ln_gain - 2.0 * x.error).exp(), (x.ln_gain + 2.0 * x.error).exp());
+        let _ = writeln!(text, "{low:4.2}–{high:4.2} ×  {:6.2} ×  {:4.2} ×  {}", x.variance, x.cost, x.family);
+    }
+    let candidates = judged.len();
+    let _ = writeln!(
+        text,
+        "\nAll beside all strategies together; {candidates} sets that make every kind of path were judged by the same samples."
+    );
+    let _ = match judged.first().filter(|best| best.is_worth_it()) {
+        Some(best) => writeln!(text, "Suggestion: {}. To render so: render {scene} --strategies suggested …", best.family),
+        None => writeln!(text, "Suggestion: all strategies; no set is surely better by a tenth."),
+    };
+    text
+}

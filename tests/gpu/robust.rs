@@ -1,0 +1,67 @@
+//! Hard cases on the device: nothing infinite, undefined or negative under any weights, strategies and lengths, and sums of many
+//! passes. (`tests/hard/robust.rs` and `tests/hard/sums.rs` are the same on the CPU.)
+
+use crate::harness::{Work, gpu};
+use crate::images::all_scenes;
+use crate::scenes;
+use bdpt_explorer::bdpt::{Heuristic, HeuristicKind, Settings, Strategy, StrategySet};
+use bdpt_explorer::engine::{Backend, Job, Session};
+use bdpt_explorer::gpu::{Gpu, MOST_PASSES};
+use bdpt_explorer::math::Vec3;
+use bdpt_explorer::scene::Scene;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Values of a pass that should not be: those left out, and those in the picture and its layers.
+fn wrong(gpu: &Gpu, scene: Arc<Scene>, settings: Settings) -> u64 {
+    let work = Work::new(Job { size: [8, 6], settings, weighted_layers: true, raw_layers: true, ..Job::new(scene) });
+    let (film, counts) = work.on_gpu(gpu, 1);
+    let means = film.means();
+    let layers = work.plan.strategies().flat_map(|x| [work.plan.layer(x, true), work.plan.layer(x, false)]).flatten();
+    let values = layers.chain(bdpt_explorer::bdpt::render::IMAGE).flat_map(|layer| (0..48).map(move |pixel| (layer, pixel)));
+    let bad = |c: Vec3| !(c.is_finite() && c.min_element() >= 0.0);
+    values.filter(|(layer, pixel)| bad(layer.mean(&means, *pixel))).count() as u64 + counts.non_finite + counts.saturated
+}
+
+#[test]
+fn no_value_of_the_device_is_infinite_undefined_or_negative() {
+    let Some(gpu) = gpu("no_value_of_the_device_is_infinite_undefined_or_negative") else { return };
+    let subsets =
+        [StrategySet::ALL, StrategySet::path_tracer(), StrategySet::where_(|x| x.t <= 1), StrategySet::where_(|x| (x.s + x.t) % 3 > 0)];
+    let lengths = [1, 3, 7, 20];
+    for (i, scene) in all_scenes().into_iter().chain([scenes::extremes()]).enumerate() {
+        for (j, kind) in HeuristicKind::ALL.into_iter().enumerate() {
+            let heuristic = Heuristic { kind, beta: [2.0, 8.0, 0.5][i % 3], ..Heuristic::default() };
+            let (strategies, max_edges) = (subsets[(i + j) % 4], lengths[(i / 4 + j) % 4]);
+            let settings = Settings { max_edges, heuristic, strategies, roulette: i % 4 > 0, seed: 100 + j as u32, ..Settings::default() };
+            assert_eq!(wrong(gpu, Arc::clone(&scene), settings), 0, "{} {settings:?}", scene.name);
+        }
+    }
+    // Negative control: a lamp that f32 cannot hold.
+    let mut bright = (*scenes::builtin("cornell")).clone();
+    bright.lights.list.iter_mut().for_each(|light| light.radiance = Vec3::splat(3e38));
+    assert!(wrong(gpu, Arc::new(bright), Settings::default()) > 0);
+}
+
+/// More passes than are summed up on the device: they come into the film in time, and their mean, 0.3 each, is kept.
+#[test]
+fn many_passes_keep_their_mean() {
+    let Some(_) = gpu("many_passes_keep_their_mean") else { return };
+    let passes = 2 * MOST_PASSES + 300;
+    let strategies = [Strategy::new(0, 2)].into_iter().collect();
+    let settings = Settings { max_edges: 1, strategies, ..Settings::default() };
+    let job = Job { size: [2, 2], settings, backend: Backend::Gpu, ..Job::new(scenes::furnace(0.3, 0.5)) };
+    let mut session = Session::new(job).unwrap();
+    session.set_limit(passes);
+    session.wait_for_renderer();
+    while session.passes() < passes {
+        session.step(Duration::from_secs(1));
+    }
+    session.collect();
+    assert_eq!((session.stats().backend.as_str(), session.stats().spp), ("gpu", f64::from(passes)));
+    let error = session.image().iter().map(|c| (c.x / 0.3 - 1.0).abs()).fold(0.0, f32::max);
+    // Negative control: one sum in f32 of so many is worse, and of more much worse (`tests/hard/sums.rs`).
+    let one = (0..100 * passes).fold(0.0f32, |sum, _| sum + 0.3) / (100 * passes) as f32;
+    println!("{passes} passes: {error:e} off");
+    assert!(error < 1e-5 && (one / 0.3 - 1.0).abs() > 1e-4, "{error:e} {one}");
+}
