@@ -35,7 +35,7 @@ pub use picture::{Mode, Picture, Source, Values};
 pub use probe::Probe;
 pub use replay::{Answer, Comparison, Replayer, TOLERANCE, Which};
 pub use session::Session;
-pub use stats::{Notice, Stats};
+pub use stats::{Notice, Stats, restart_peak_memory};
 pub use study::{CellStudy, Landed, PixelStudy, Study, Wish};
 pub use surveyor::PIXEL_SAMPLES;
 pub use thread::{Engine, Layers};

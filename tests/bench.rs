@@ -3,6 +3,8 @@
 
 #[path = "bench/command.rs"]
 mod command;
+#[path = "bench/growth.rs"]
+mod growth;
 
 use bdpt_explorer::bdpt::HeuristicKind;
 use bdpt_explorer::engine::{Backend, Job};

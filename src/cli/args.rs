@@ -47,6 +47,8 @@ pub enum Command {
     Bench(BenchArgs),
     /// Write a scene for another renderer: the same view, the same lights, the same materials where it has them
     Export(ExportArgs),
+    /// How do time and memory grow with triangles, path length, pixels and lamps, and is that no more than the algorithm demands?
+    Growth(GrowthArgs),
 }
 
 #[derive(Args)]
@@ -198,6 +200,22 @@ pub struct BenchArgs {
     pub reference_spp: Option<u32>,
     /// Folder for report.md, .csv, .svg, and the pictures as .exr
     #[arg(short, long, value_name = "DIR", default_value = "bench")]
+    pub output: PathBuf,
+}
+
+#[derive(Args)]
+pub struct GrowthArgs {
+    /// Who renders: cpu, gpu [default: cpu, and gpu where there is one that does not run on the processor]
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = renderer_parser())]
+    pub backends: Vec<Backend>,
+    /// Seconds for each size; three passes are measured at least [default: 1, with --quick 0.05]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_hyphen_values = true)]
+    pub seconds: Option<f64>,
+    /// Few and small sizes: to see the report, not to judge by it
+    #[arg(long)]
+    pub quick: bool,
+    /// Folder for growth.md, growth.csv and the plots
+    #[arg(short, long, value_name = "DIR", default_value = "growth")]
     pub output: PathBuf,
 }
 

@@ -31,7 +31,7 @@ pub fn run(args: &BenchArgs) -> Result<(), Failure> {
     let wanted = prepare(args)?;
     create_folder(&args.output)?;
     check_writable(&args.output.join("report.md"))?;
-    let load = std::fs::read_to_string("/proc/loadavg").ok().and_then(|text| text.split_whitespace().next().map(str::to_owned));
+    let host = host();
     wanted.iter().for_each(|wanted| say_notes(&wanted.job.scene));
     listen("stopping; what is done will be written (Ctrl-C again: at once, without writing)")?;
     let scenes = with_a_bar(&wanted)?;
@@ -39,7 +39,7 @@ pub fn run(args: &BenchArgs) -> Result<(), Failure> {
     if scenes.is_empty() {
         return Err(Failure("stopped before anything was measured, so nothing was written".to_owned()));
     }
-    let origin = Origin { machine: machine(&scenes, load), command: command(), date: date(SystemTime::now()), stopped };
+    let origin = Origin { machine: machine(&scenes, host), command: command(), date: date(SystemTime::now()), stopped };
     let files = write(&scenes, &origin, &args.output)?;
     if stopped {
         eprintln!("note: stopped; the report says what was finished");
@@ -135,7 +135,7 @@ fn with_a_bar(wanted: &[Wanted]) -> Result<Vec<SceneResult>, Failure> {
 }
 
 /// Who rendered, and on what.
-fn machine(scenes: &[SceneResult], load: Option<String>) -> String {
+fn machine(scenes: &[SceneResult], host: Vec<String>) -> String {
     let mut parts: Vec<String> = Vec::new();
     for result in scenes.iter().flat_map(|scene| &scene.methods).filter(|result| !result.runs.is_empty()) {
         let part = match result.method.backend {
@@ -146,15 +146,21 @@ fn machine(scenes: &[SceneResult], load: Option<String>) -> String {
             parts.push(part);
         }
     }
-    parts.push(format!("{} {}", std::env::consts::OS, std::env::consts::ARCH));
+    [parts, host].concat().join("; ")
+}
+
+/// On what it ran, and how busy that was: to be asked before the work.
+pub(super) fn host() -> Vec<String> {
+    let load = std::fs::read_to_string("/proc/loadavg").ok().and_then(|text| text.split_whitespace().next().map(str::to_owned));
+    let mut parts = vec![format!("{} {}", std::env::consts::OS, std::env::consts::ARCH)];
     parts.extend(load.map(|load| format!("load average before {load}")));
     let build = if cfg!(debug_assertions) { "with debug assertions: times are too long" } else { "optimised" };
     parts.push(format!("bdpt-explorer {}, {build}", env!("CARGO_PKG_VERSION")));
-    parts.join("; ")
+    parts
 }
 
 /// The command as it was given, without the program's folder.
-fn command() -> String {
+pub(super) fn command() -> String {
     let quoted = |word: String| if word.contains(char::is_whitespace) { format!("'{word}'") } else { word };
     let words = std::env::args_os().skip(1).map(|word| quoted(word.to_string_lossy().into_owned()));
     std::iter::once("bdpt-explorer".to_owned()).chain(words).collect::<Vec<_>>().join(" ")

@@ -6,6 +6,7 @@ mod args;
 mod bench;
 mod check;
 mod export;
+mod growth;
 mod inspect;
 mod job;
 mod merge;
@@ -104,6 +105,7 @@ where
         (Some(Command::Suggest(args)), None) => suggest::run(&args).map(|()| ExitCode::SUCCESS),
         (Some(Command::Bench(args)), None) => bench::run(&args).map(|()| ExitCode::SUCCESS),
         (Some(Command::Export(args)), None) => export::run(&args).map(|()| ExitCode::SUCCESS),
+        (Some(Command::Growth(args)), None) => growth::run(&args).map(|()| ExitCode::SUCCESS),
     };
     outcome.unwrap_or_else(|failure| fail(&failure))
 }

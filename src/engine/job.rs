@@ -155,7 +155,7 @@ impl Job {
         if !(0.0..=1.0).contains(&h.cutoff) {
             return fail(format!("cutoff {}: must be 0 to 1", h.cutoff));
         }
-        let bytes = Film::bytes(self.size, self.plan().layers);
+        let bytes = self.film_bytes();
         if bytes > FILM_BUDGET {
             let (need, have) = (bytes >> 20, FILM_BUDGET >> 20);
             return fail(format!(
@@ -163,6 +163,11 @@ impl Job {
             ));
         }
         Ok(())
+    }
+
+    /// What its film takes, bytes.
+    pub fn film_bytes(&self) -> u128 {
+        Film::bytes(self.size, self.plan().layers)
     }
 
     /// What a pilot run on a small film says of sets of strategies, the most efficient first; 2 to 4 s on two cores.

@@ -54,7 +54,7 @@ pub struct Stats {
     pub non_finite: u64,
     /// Splats too large to count, cut.
     pub saturated: u64,
-    /// Largest resident memory of the process so far, bytes (where the system tells; else the film's).
+    /// Largest resident memory of the process so far, or since [`restart_peak_memory`], bytes (where the system tells; else the film's).
     pub peak_memory_bytes: u64,
     /// Triangles.
     pub triangles: usize,
@@ -88,8 +88,19 @@ pub(super) fn cpu_time() -> Duration {
 
 /// Largest resident memory so far, where the system tells.
 pub(super) fn peak_memory() -> Option<u64> {
+    memory("VmHWM:")
+}
+
+/// Begins anew with the largest resident memory of the process, where the system lets it; what is resident now, bytes.
+pub fn restart_peak_memory() -> Option<u64> {
+    std::fs::write("/proc/self/clear_refs", "5").ok()?;
+    memory("VmRSS:")
+}
+
+/// A line about this process's memory, bytes.
+fn memory(name: &str) -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let line = status.lines().find_map(|line| line.strip_prefix(name))?;
     Some(line.trim().trim_end_matches("kB").trim().parse::<u64>().ok()? * 1024)
 }
 

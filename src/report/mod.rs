@@ -8,6 +8,10 @@ pub mod check;
 pub mod contact_sheet;
 pub mod export;
 #[cfg(not(target_arch = "wasm32"))]
+pub mod growth;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod loglog;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod mitsuba;
 
 pub use canvas::Canvas;

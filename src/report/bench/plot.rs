@@ -3,14 +3,9 @@
 
 use super::stats::Interval;
 use super::{Clock, MethodResult, Point, SceneResult};
-use crate::report::axis::{Axis, label};
-use crate::report::export::svg_parts::{At, Drawing, number};
-
-/// Okabe and Ito's colours that can be seen on white.
-const COLOURS: [&str; 7] = ["#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#000000"];
-/// Where the axes cross, and how long they are.
-const CORNER: At = [86.0, 400.0];
-const LENGTH: At = [480.0, 320.0];
+use crate::report::axis::Axis;
+use crate::report::export::svg_parts::number;
+use crate::report::loglog::{Place, Plot};
 
 /// What lies along the plot's horizontal axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,13 +43,6 @@ impl Along {
     }
 }
 
-/// A place on the plot before it is scaled: x, y, and the ends of its bar.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Place {
-    at: At,
-    bar: At,
-}
-
 /// A method's points: geometric means over its seeds, with the intervals of the logarithms.
 fn series(result: &MethodResult, along: Along, clock: Clock) -> Vec<Place> {
     let points = result.runs.iter().map(|run| run.curve.len()).min().unwrap_or(0);
@@ -68,136 +56,33 @@ fn series(result: &MethodResult, along: Along, clock: Clock) -> Vec<Place> {
     (0..points).filter_map(place).collect()
 }
 
-struct Plot {
-    axes: [Axis; 2],
-    drawing: Drawing,
-}
-
-impl Plot {
-    fn at(&self, [x, y]: At) -> At {
-        [CORNER[0] + LENGTH[0] * self.axes[0].place(x), CORNER[1] - LENGTH[1] * self.axes[1].place(y).clamp(0.0, 1.0)]
-    }
-
-    fn line(&mut self, [a, b]: [At; 2], paint: &str) {
-        self.drawing.add(&format!(r#"<line x1="{:.1}" y1="{:.1}" x2="{:.1}" y2="{:.1}" {paint}/>"#, a[0], a[1], b[0], b[1]));
-    }
-
-    fn grid(&mut self, labels: [&str; 2]) {
-        let thin = "stroke=\"#dcdcdc\" stroke-width=\"1\"";
-        for tick in self.axes[0].ticks() {
-            let x = CORNER[0] + LENGTH[0] * self.axes[0].place(tick);
-            self.line([[x, CORNER[1]], [x, CORNER[1] - LENGTH[1]]], thin);
-            self.drawing.text([x, CORNER[1] + 18.0], "m", &label(tick));
-        }
-        for tick in self.axes[1].ticks() {
-            let y = CORNER[1] - LENGTH[1] * self.axes[1].place(tick);
-            self.line([[CORNER[0], y], [CORNER[0] + LENGTH[0], y]], thin);
-            self.drawing.add(&format!(r#"<text x="{:.1}" y="{:.1}" text-anchor="end">{}</text>"#, CORNER[0] - 6.0, y + 4.0, label(tick)));
-        }
-        let [[left, bottom], right, top] = [CORNER, [CORNER[0] + LENGTH[0], CORNER[1]], [CORNER[0], CORNER[1] - LENGTH[1]]];
-        let ink = "stroke=\"#202020\" stroke-width=\"1.5\"";
-        self.line([[left, bottom], right], ink);
-        self.line([[left, bottom], top], ink);
-        self.drawing.text([left + 0.5 * LENGTH[0], bottom + 40.0], "m", labels[0]);
-        let [x, y] = [24.0, bottom - 0.5 * LENGTH[1]];
-        self.drawing.add(&format!(r#"<text x="{x:.1}" y="{y:.1}" class="m" transform="rotate(-90 {x:.1} {y:.1})">{}</text>"#, labels[1]));
-    }
-
-    /// A series: bars, a line, marks, and its place in the legend.
-    fn series(&mut self, number: usize, label: &str, places: &[Place]) {
-        let colour = COLOURS[number % COLOURS.len()];
-        self.drawing.open("class=\"series\"", label);
-        let stroke = format!("stroke=\"{colour}\" stroke-width=\"2\"");
-        for pair in places.windows(2) {
-            let ends = [self.at(pair[0].at), self.at(pair[1].at)];
-            self.line(ends, &stroke);
-        }
-        for place in places {
-            let [x, y] = self.at(place.at);
-            let [low, high] = place.bar.map(|end| self.at([place.at[0], end])[1]);
-            self.line([[x, low], [x, high]], &stroke);
-            self.drawing.add(&shape(number, [x, y], colour));
-        }
-        let key = [CORNER[0] + LENGTH[0] + 30.0, CORNER[1] - LENGTH[1] + 12.0 + 22.0 * number as f64];
-        self.line([[key[0] - 14.0, key[1]], [key[0] + 14.0, key[1]]], &stroke);
-        self.drawing.add(&shape(number, key, colour));
-        self.drawing.text([key[0] + 22.0, key[1] + 4.0], "", label);
-        self.drawing.close();
-    }
-
-    /// A line without marks, and its place in the legend.
-    fn guide(&mut self, number: usize, label: &str, ends: [At; 2]) {
-        let paint = if number.is_multiple_of(2) { "stroke-dasharray=\"6 4\"" } else { "stroke-dasharray=\"1 4\"" };
-        let paint = format!("stroke=\"#707070\" stroke-width=\"1.5\" {paint}");
-        let ends = ends.map(|end| self.at(end));
-        self.line(ends, &paint);
-        let key = [CORNER[0] + LENGTH[0] + 30.0, CORNER[1] - 12.0 - 22.0 * number as f64];
-        self.line([[key[0] - 14.0, key[1]], [key[0] + 14.0, key[1]]], &paint);
-        self.drawing.text([key[0] + 22.0, key[1] + 4.0], "w", label);
-    }
-}
-
-/// The mark of a series: another shape for each of the first six.
-fn shape(number: usize, [x, y]: At, colour: &str) -> String {
-    let polygon = |points: &[At]| {
-        let points: Vec<_> = points.iter().map(|[dx, dy]| format!("{:.1},{:.1}", x + dx, y + dy)).collect();
-        format!(r#"<polygon points="{}" fill="{colour}" stroke="white" stroke-width="1"/>"#, points.join(" "))
-    };
-    match number % 6 {
-        0 => format!(r#"<circle cx="{x:.1}" cy="{y:.1}" r="5" fill="{colour}" stroke="white" stroke-width="1"/>"#),
-        1 => polygon(&[[-5.0, -5.0], [5.0, -5.0], [5.0, 5.0], [-5.0, 5.0]]),
-        2 => polygon(&[[0.0, -6.5], [6.0, 4.5], [-6.0, 4.5]]),
-        3 => polygon(&[[0.0, -7.0], [6.0, 0.0], [0.0, 7.0], [-6.0, 0.0]]),
-        4 => polygon(&[[0.0, 6.5], [6.0, -4.5], [-6.0, -4.5]]),
-        _ => format!(r#"<path d="M{:.1} {:.1}l10 10m0 -10l-10 10" stroke="{colour}" stroke-width="3" fill="none"/>"#, x - 5.0, y - 5.0),
-    }
-}
-
 /// The plot of a scene; `made_by` says with which command and when.
 pub fn svg(scene: &SceneResult, along: Along, made_by: &str) -> String {
     let all: Vec<_> = scene.methods.iter().map(|result| (result.method.label(), series(result, along, scene.clock))).collect();
     let places = || all.iter().flat_map(|(_, places)| places);
     let ys = places().flat_map(|place| place.bar).chain(scene.reference.noise);
     let axes = [Axis::over(places().map(|place| place.at[0])), Axis::over(ys)];
-    let mut plot = Plot { axes, drawing: Drawing::default() };
+    let mut plot = Plot::new(axes);
     let seeds = scene.methods.iter().map(|result| result.runs.len()).max().unwrap_or(0);
     let title = format!("{}: error against {}", scene.scene, along.name());
-    plot.drawing.text([CORNER[0], 32.0], "h", &title);
     let [width, height] = scene.size;
     let details = format!("{width}×{height} · K = {} · geometric means over {seeds} seeds, bars: 95 % intervals", scene.max_edges);
-    plot.drawing.text([CORNER[0], 54.0], "w", &details);
+    plot.head([&title, &details]);
     plot.grid([&along.label(scene.clock), "relMSE, no unit"]);
     if let Some(first) = all.iter().find_map(|(_, places)| places.first()) {
         // From the first point on as 1/x, to the border it meets first.
         let [x, y] = first.at;
         let end = (10f64.powf(axes[0].high)).min(x * y / 10f64.powf(axes[1].low));
-        plot.guide(0, "slope −1", [[x, y], [end, x * y / end]]);
+        plot.guide(0, "slope −1", &[[x, y], [end, x * y / end]]);
     }
     if let Some(noise) = scene.reference.noise.filter(|noise| *noise > 0.0) {
         let ends = [axes[0].low, axes[0].high].map(|x| [10f64.powf(x), noise]);
-        plot.guide(1, &format!("the reference's noise, {}", number(noise)), ends);
+        plot.guide(1, &format!("the reference's noise, {}", number(noise)), &ends);
     }
     for (number, (label, places)) in all.iter().enumerate() {
         plot.series(number, label, places);
     }
-    let description = format!("{details}. {made_by}");
-    let lines = wrapped(made_by);
-    for (number, line) in lines.iter().enumerate() {
-        plot.drawing.text([24.0, CORNER[1] + 66.0 + 15.0 * number as f64], "w", line);
-    }
-    plot.drawing.finish([820.0, CORNER[1] + 76.0 + 15.0 * lines.len() as f64], [&title, &description])
-}
-
-/// Words in lines that fit below a plot.
-fn wrapped(text: &str) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut().filter(|line| line.len() + word.len() < 120) {
-            Some(line) => *line += &format!(" {word}"),
-            None => lines.push(word.to_owned()),
-        }
-    }
-    lines
+    plot.finish([&title, &details], made_by)
 }
 
 #[cfg(test)]
@@ -221,13 +106,5 @@ mod tests {
         assert_eq!(places.len(), 5);
         assert!(places.windows(2).all(|pair| pair[1].at[0] > pair[0].at[0] && pair[1].at[1] < pair[0].at[1]));
         assert!(places.iter().all(|place| place.bar[0] < place.at[1] && place.at[1] < place.bar[1]));
-    }
-
-    #[test]
-    fn long_commands_take_several_lines() {
-        let text = "word ".repeat(60);
-        let lines = wrapped(&text);
-        assert!(lines.len() == 3 && lines.iter().all(|line| line.len() <= 120), "{lines:?}");
-        assert_eq!(lines.join(" "), text.trim());
     }
 }

@@ -32,6 +32,19 @@ impl Interval {
     }
 }
 
+/// [`log_slope`] with its 95 % interval, from how far the points lie from the line (Student's t, n − 2 degrees of freedom); there
+/// is none of two points. For points that are measured each by itself.
+pub fn log_fit(points: &[[f64; 2]]) -> Option<Interval> {
+    let mean = log_slope(points)?;
+    let n = points.len() as f64;
+    let logs = || points.iter().map(|point| point.map(f64::ln));
+    let [x0, y0] = [0, 1].map(|axis| logs().map(|log| log[axis]).sum::<f64>() / n);
+    let under: f64 = logs().map(|[x, _]| (x - x0).powi(2)).sum();
+    let left: f64 = logs().map(|[x, y]| (y - y0 - mean * (x - x0)).powi(2)).sum();
+    let student = (n > 2.0).then(|| StudentsT::new(0.0, 1.0, n - 2.0).ok()).flatten();
+    Some(Interval { mean, half: student.map(|t| t.inverse_cdf(0.975) * (left / (n - 2.0) / under).sqrt()) })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -71,5 +84,23 @@ mod tests {
         assert_eq!(Interval::of(&[5.0]), Some(Interval { mean: 5.0, half: None }));
         assert_eq!((Interval::of(&[]), Interval::of(&[1.0, f64::NAN]), Interval::of_logs(&[1.0, 0.0])), (None, None, None));
         near(Interval::of_logs(&[1.0, 100.0]).unwrap().mean, 10f64.ln(), 1e-12);
+    }
+
+    /// At the level 10⁻⁴, as above; the control is half the interval.
+    #[test]
+    fn a_fit_finds_a_known_exponent_and_its_interval_covers_it() {
+        let (cases, mut covered, mut control) = (5000, 0, 0);
+        for case in 0..cases {
+            let noisy = |i: u32| [10f64.powi(i as i32), 7.0 * 10f64.powf(1.5 * f64::from(i)) * (0.2 * normal(i, case, 1)).exp()];
+            let Interval { mean, half: Some(half) } = log_fit(&(0..6).map(noisy).collect::<Vec<_>>()).unwrap() else {
+                panic!("six points")
+            };
+            covered += usize::from((mean - 1.5).abs() <= half);
+            control += usize::from((mean - 1.5).abs() <= 0.5 * half);
+        }
+        let limit = 3.9 * (0.95f64 * 0.05 / cases as f64).sqrt();
+        let [covered, control] = [covered, control].map(|count| (count as f64 / cases as f64 - 0.95).abs());
+        assert!(covered < limit && control > limit, "{covered} {control} {limit}");
+        assert_eq!(log_fit(&[[1.0, 2.0], [2.0, 4.0]]), Some(Interval { mean: 1.0, half: None }));
     }
 }
