@@ -26,7 +26,7 @@ mod tests {
         for entry in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
             if entry.is_dir() {
                 letters(&entry, found);
-            } else {
+            } else if entry.extension().is_some_and(|end| end == "rs") {
                 let source = std::fs::read_to_string(&entry).unwrap();
                 let code = source.split("#[cfg(test)]").next().unwrap_or_default();
                 found.extend(code.lines().filter(|line| !line.trim_start().starts_with("//")).flat_map(str::chars));

@@ -3,12 +3,13 @@
 
 use crate::harness::{Work, gpu};
 use crate::images::all_scenes;
-use crate::scenes;
+use crate::scenes::{self, Room};
+use bdpt_explorer::bdpt::render::{IMAGE, image_mean};
 use bdpt_explorer::bdpt::{Heuristic, HeuristicKind, Settings, Strategy, StrategySet};
 use bdpt_explorer::engine::{Backend, Job, Session};
 use bdpt_explorer::gpu::{Gpu, MOST_PASSES};
 use bdpt_explorer::math::Vec3;
-use bdpt_explorer::scene::Scene;
+use bdpt_explorer::scene::{Material, Scene};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -18,7 +19,7 @@ fn wrong(gpu: &Gpu, scene: Arc<Scene>, settings: Settings) -> u64 {
     let (film, counts) = work.on_gpu(gpu, 1);
     let means = film.means();
     let layers = work.plan.strategies().flat_map(|x| [work.plan.layer(x, true), work.plan.layer(x, false)]).flatten();
-    let values = layers.chain(bdpt_explorer::bdpt::render::IMAGE).flat_map(|layer| (0..48).map(move |pixel| (layer, pixel)));
+    let values = layers.chain(IMAGE).flat_map(|layer| (0..48).map(move |pixel| (layer, pixel)));
     let bad = |c: Vec3| !(c.is_finite() && c.min_element() >= 0.0);
     values.filter(|(layer, pixel)| bad(layer.mean(&means, *pixel))).count() as u64 + counts.non_finite + counts.saturated
 }
@@ -64,4 +65,31 @@ fn many_passes_keep_their_mean() {
     let one = (0..100 * passes).fold(0.0f32, |sum, _| sum + 0.3) / (100 * passes) as f32;
     println!("{passes} passes: {error:e} off");
     assert!(error < 1e-5 && (one / 0.3 - 1.0).abs() > 1e-4, "{error:e} {one}");
+}
+
+/// A small lamp close to the camera, on a floor four kilometres wide, for as many passes as are summed up at once. Would have caught: a
+/// quantum from the scene's power and size alone, of which the counters cannot hold the lamp's pixel.
+#[test]
+fn a_lamp_near_the_camera_fits_the_counters_of_a_wide_scene() {
+    let Some(gpu) = gpu("a_lamp_near_the_camera_fits_the_counters_of_a_wide_scene") else { return };
+    let mut room = Room::new("wide");
+    let (white, lamp) = (room.material(Material::lambert(Vec3::splat(0.5))), room.emitter(1000.0, 0.0, true));
+    room.quad([-2000.0, 0.0, -2000.0], [0.0, 0.0, 4000.0], [4000.0, 0.0, 0.0], white);
+    room.quad([-0.05, 0.95, -1.0], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0], lamp);
+    room.camera([0.0, 1.0, 0.0], [0.0, 1.0, -1.0], 40.0);
+    let settings = Settings { max_edges: 1, ..Settings::default() };
+    let work = Work::new(Job { size: [9, 9], settings, ..Job::new(room.build()) });
+    let lamp = |work: &Work| {
+        let (film, counts) = work.on_gpu(gpu, MOST_PASSES);
+        let means = film.means();
+        println!("{} in the middle, {} splats too many", image_mean(&means, 40).x, counts.saturated);
+        (image_mean(&means, 40).x, counts.saturated)
+    };
+    let (light, saturated) = lamp(&work);
+    assert!((light / 1000.0 - 1.0).abs() < 0.05 && saturated == 0, "{light} {saturated}");
+    // Negative control: the scene's power and size alone.
+    let (scene, radius) = (&work.job.scene, work.job.scene.sphere.radius);
+    let quantum = scene.lights.power.max_element() / (work.view.film_area() * radius * radius) * (-30.0f32).exp2();
+    let (light, saturated) = lamp(&Work { quantum, ..Work::new(work.job.clone()) });
+    assert!(light < 900.0 && saturated > 0, "{light} {saturated}");
 }

@@ -48,7 +48,7 @@ fn borders_corners_and_windows_are_as_bright_as_the_middle() {
     let settings = Settings { max_edges: 3, strategies: StrategySet::light_tracer(), ..Settings::default() };
     let exact = 2.0 * (1.0 + 0.5 + 0.25);
     let part = |i: usize| match (i % SIDE, i / SIDE) {
-        (0 | 11, 0 | 11) => 4 + usize::from(i % SIDE > 0) + 2 * usize::from(i / SIDE > 0),
+        (x @ (0 | 11), y @ (0 | 11)) => 4 + x / 11 + 2 * (y / 11),
         (0, _) => 0,
         (11, _) => 1,
         (_, 0) => 2,

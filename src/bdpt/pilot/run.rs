@@ -39,7 +39,7 @@ impl Candidate {
 
 /// Sums over the passes of one group.
 pub(super) struct Sums {
-    /// [family][pixel]: Σ of the squares of splats, and the variance of what stays in the pixel, times the passes.
+    /// [family][pixel]: the variance of what a pass adds, times the passes.
     variance: Vec<f64>,
     /// [family]: rays, and tries that needed none.
     cost: Vec<f64>,
@@ -114,6 +114,7 @@ impl Pilot<'_> {
         let (pixels, here) = (sums.mean.len(), (y * width + x) as usize);
         let mut moments = vec![[0.0; 2]; count];
         let mut own = vec![0.0; count];
+        let mut squares = vec![0.0; count];
         for pass in first..first + PASSES {
             own.fill(0.0);
             let id = SampleId { x, y, sample: pass, seed: SEED, ..SampleId::default() };
@@ -135,12 +136,17 @@ impl Pilot<'_> {
                 }
                 let there = (found.pixel[1] * width + found.pixel[0]) as usize;
                 sums.mean[there] += value * f64::from(found.mis_weight);
-                let shares = Shares::of(&sample.path, &self.context.settings.heuristic);
+                let shares = Shares::of(&sample.path, &self.context.settings.heuristic, strategy);
+                let all = value * value * f64::from(found.mis_weight);
                 for (i, own) in own.iter_mut().enumerate() {
-                    match shares.weight(&self.families[i].set, strategy) {
-                        None => sums.fails[i] = true,
-                        Some(weight) if strategy.stays_in_pixel() => *own += weight * value,
-                        Some(weight) => sums.variance[i * pixels + there] += (weight * value).powi(2),
+                    let Some((weight, moment)) = shares.within(&self.families[i].set) else {
+                        sums.fails[i] = true;
+                        continue;
+                    };
+                    sums.variance[i * pixels + there] += all * moment;
+                    if strategy.stays_in_pixel() {
+                        *own += weight * value;
+                        squares[i] += (weight * value).powi(2);
                     }
                 }
             }
@@ -150,7 +156,7 @@ impl Pilot<'_> {
         }
         let n = f64::from(PASSES);
         for (i, [sum, square]) in moments.into_iter().enumerate() {
-            sums.variance[i * pixels + here] += (square - sum * sum / n).max(0.0) * n / (n - 1.0);
+            sums.variance[i * pixels + here] += (square - sum * sum / n) * n / (n - 1.0) - squares[i];
         }
     }
 
@@ -186,35 +192,46 @@ impl Pilot<'_> {
 struct Shares<'a> {
     path: &'a FullPath,
     heuristic: &'a Heuristic,
+    /// The strategy that made the path.
+    made: usize,
     ln_p: Vec<f64>,
-    /// p^β, for the heuristics that have one.
-    powers: Vec<f64>,
+    /// p_i^β and p_i^2β p/p_i, p of the strategy that made the path; for the heuristics that have a β.
+    powers: Vec<[f64; 2]>,
 }
 
 impl<'a> Shares<'a> {
-    fn of(path: &'a FullPath, heuristic: &'a Heuristic) -> Self {
-        let ln_p = log_densities(path);
+    fn of(path: &'a FullPath, heuristic: &'a Heuristic, strategy: Strategy) -> Self {
+        let (ln_p, made) = (log_densities(path), strategy.s as usize);
         let largest = ln_p.iter().zip(&path.samplable).filter(|(_, can)| **can).map(|(p, _)| *p).fold(f64::NEG_INFINITY, f64::max);
         let beta = match heuristic.kind {
             HeuristicKind::Power => Some(f64::from(heuristic.beta)),
             HeuristicKind::Balance => Some(1.0),
             _ => None,
         };
-        let powers = beta.map_or(Vec::new(), |beta| ln_p.iter().map(|p| ((p - largest) * beta).exp()).collect());
-        Self { path, heuristic, ln_p, powers }
+        let powers = |beta: f64| {
+            let both = |p: &f64| [((p - largest) * beta).exp(), ((p - largest) * 2.0 * beta + ln_p[made] - p).exp()];
+            ln_p.iter().map(|p| if *p == f64::NEG_INFINITY { [0.0; 2] } else { both(p) }).collect()
+        };
+        Self { path, heuristic, made, powers: beta.map_or(Vec::new(), powers), ln_p }
     }
 
-    /// w of a strategy in a set, 0 if it is not in it; `None` if the set cannot make the path at all.
-    fn weight(&self, set: &StrategySet, strategy: Strategy) -> Option<f64> {
+    /// w of the strategy that made the path in a set, 0 if it is not in it, and Σ w_i² p/p_i over the set: what the path says of
+    /// the second moments of them all. `None` if the set cannot make the path.
+    fn within(&self, set: &StrategySet) -> Option<(f64, f64)> {
         let row = set.row(self.path.k as u32);
         let member = |s: usize| row >> s & 1 == 1 && self.path.samplable[s];
-        let s = strategy.s as usize;
         if self.powers.is_empty() {
             let active: Vec<bool> = (0..self.ln_p.len()).map(member).collect();
             let weights = weights_of_log_densities(&self.ln_p, &active, self.heuristic);
-            return (weights.iter().sum::<f64>() > 0.0).then(|| weights[s]);
+            let term = |(w, p): (&f64, &f64)| if *w > 0.0 { w * w * (self.ln_p[self.made] - p).exp() } else { 0.0 };
+            let moment = weights.iter().zip(&self.ln_p).map(term).sum();
+            return (weights.iter().sum::<f64>() > 0.0).then(|| (weights[self.made], moment));
         }
-        let sum: f64 = (0..self.powers.len()).filter(|&s| member(s)).map(|s| self.powers[s]).sum();
-        (sum > 0.0).then(|| if member(s) { self.powers[s] / sum } else { 0.0 })
+        let [sum, moment] = (0..self.powers.len()).filter(|&s| member(s)).fold([0.0; 2], |[a, b], s| {
+            let [power, term] = self.powers[s];
+            [a + power, b + term]
+        });
+        let own = if member(self.made) { self.powers[self.made][0] } else { 0.0 };
+        (sum > 0.0).then(|| (own / sum, moment / (sum * sum)))
     }
 }
