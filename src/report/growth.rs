@@ -25,7 +25,7 @@ pub mod write;
 use crate::engine::Backend;
 use judge::Demand;
 
-/// Below it, peak memory tells nothing: what was resident before, and is free again, is taken first.
+/// Below it, peak memory tells nothing: the program itself has as much.
 const LEAST_PEAK: u64 = 8 << 20;
 
 /// What grows.
@@ -44,8 +44,8 @@ pub enum Knob {
 }
 
 impl Knob {
-    /// All of them, in the order they are measured.
-    pub const ALL: [Self; 5] = [Self::Triangles, Self::Edges, Self::EdgesRoulette, Self::Pixels, Self::Emitters];
+    /// All of them, in the order they are measured: what takes most memory last, as an allocator keeps some of it.
+    pub const ALL: [Self; 5] = [Self::Edges, Self::EdgesRoulette, Self::Emitters, Self::Pixels, Self::Triangles];
 
     /// As a part of a file's name.
     pub const fn name(self) -> &'static str {
@@ -162,11 +162,11 @@ impl Series {
         let of = |knob, list: &[(Cost, Demand)]| list.iter().map(|&(cost, demand)| Self { knob, cost, demand }).collect::<Vec<_>>();
         let (n, one, pairs) = (Demand::Linear, Demand::Constant, Demand::Connections);
         [
-            of(Knob::Triangles, &[(Ray, Demand::Logarithm), (Rays, one), (Load, Demand::Sorting), (Scene, n), (Peak, n)]),
             of(Knob::Edges, &[(Pass, pairs), (Rays, pairs), (Film, pairs), (Peak, pairs)]),
             of(Knob::EdgesRoulette, &[(Pass, Demand::Bounded), (Rays, Demand::Bounded)]),
-            of(Knob::Pixels, &[(Pass, n), (Film, n), (Peak, n)]),
             of(Knob::Emitters, &[(Ray, one), (Rays, one), (Load, n), (Scene, n)]),
+            of(Knob::Pixels, &[(Pass, n), (Film, n), (Peak, n)]),
+            of(Knob::Triangles, &[(Ray, Demand::Logarithm), (Rays, one), (Load, Demand::Sorting), (Scene, n), (Peak, n)]),
         ]
         .concat()
     }
@@ -239,7 +239,8 @@ pub struct Point {
     pub scene_bytes: u64,
     /// The film, bytes.
     pub film_bytes: u64,
-    /// Largest resident memory of the process, above what was resident before the point; `None` where the system does not tell.
+    /// Largest resident memory of the process, above what was resident before all points; `None` where the system does not tell, or
+    /// where an earlier point has left so much that this one hardly needed more.
     pub peak_bytes: Option<u64>,
 }
 

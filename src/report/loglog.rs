@@ -56,7 +56,12 @@ impl Plot {
         for tick in self.axes[1].ticks() {
             let y = CORNER[1] - LENGTH[1] * self.axes[1].place(tick);
             self.line([[CORNER[0], y], [CORNER[0] + LENGTH[0], y]], thin);
-            self.drawing.add(&format!(r#"<text x="{:.1}" y="{:.1}" text-anchor="end">{}</text>"#, CORNER[0] - 6.0, y + 4.0, tick_label(tick)));
+            self.drawing.add(&format!(
+                r#"<text x="{:.1}" y="{:.1}" text-anchor="end">{}</text>"#,
+                CORNER[0] - 6.0,
+                y + 4.0,
+                tick_label(tick)
+            ));
         }
         let [[left, bottom], right, top] = [CORNER, [CORNER[0] + LENGTH[0], CORNER[1]], [CORNER[0], CORNER[1] - LENGTH[1]]];
         let ink = "stroke=\"#202020\" stroke-width=\"1.5\"";

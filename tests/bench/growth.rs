@@ -116,5 +116,5 @@ fn an_interrupted_run_writes_what_is_done() {
     assert!(err.contains("the report says what was finished"), "{err}");
     let out = folder.path().join("out");
     assert!(read(&out.join("growth.md")).contains("**Stopped before all was measured.**"));
-    assert!(!column(&read(&out.join("growth.csv")), Knob::Triangles, "size").is_empty() && out.join("triangles-ray.svg").is_file());
+    assert!(!column(&read(&out.join("growth.csv")), Knob::Edges, "size").is_empty() && out.join("edges-pass.svg").is_file());
 }

@@ -23,7 +23,8 @@ fn places(growth: &Growth, series: &Series, backend: Backend) -> Vec<Place> {
 
 /// The plot of a series; `None` if nothing of it was measured. `made_by` says with which command and when.
 pub fn svg(growth: &Growth, series: &Series, made_by: &str) -> Option<String> {
-    let all: Vec<_> = growth.backends().into_iter().map(|backend| (name(backend), places(growth, series, backend))).filter(|(_, places)| !places.is_empty()).collect();
+    let of = |backend| (name(backend), places(growth, series, backend));
+    let all: Vec<_> = growth.backends().into_iter().map(of).filter(|(_, places)| !places.is_empty()).collect();
     let points = || all.iter().flat_map(|(_, places)| places);
     let last = points().max_by(|a, b| a.at[0].total_cmp(&b.at[0]))?.at;
     let first = points().map(|place| place.at[0]).fold(f64::INFINITY, f64::min);
@@ -33,7 +34,7 @@ pub fn svg(growth: &Growth, series: &Series, made_by: &str) -> Option<String> {
     let details = match series.cost {
         Cost::Pass | Cost::Ray => "fastest pass, bars up to the median; cpu: processor time of all threads, gpu: by the clock",
         Cost::Load => "fastest time by the clock",
-        Cost::Peak => "resident memory of the process, above what was resident before",
+        Cost::Peak => "resident memory of the process, above what was resident before all",
         Cost::Rays | Cost::Scene | Cost::Film => "counted",
     };
     plot.head([&title, details]);

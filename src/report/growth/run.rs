@@ -6,7 +6,7 @@ use crate::bdpt::Settings;
 use crate::engine::{Backend, Job, Notice, Session, Stats, restart_peak_memory};
 use crate::gpu::GpuError;
 use crate::report::bench::run::Control;
-use crate::scene::{Scene, SceneError};
+use crate::scene::{Costs, Scene, SceneError};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::{Duration, Instant};
@@ -53,27 +53,23 @@ impl From<SceneError> for Missing {
 
 /// Measures everything that is wanted, or what was finished before a wish to stop.
 pub fn measure(wanted: &Wanted, control: &mut Control) -> Growth {
-    let (mut growth, mut useless): (Growth, Vec<Backend>) = Default::default();
+    let mut growth = Growth::default();
     let steps: usize = Knob::ALL.iter().map(|knob| knob.sizes(wanted.quick).len() * wanted.backends.len()).sum();
-    let mut done = 0;
-    for knob in Knob::ALL {
-        for &backend in &wanted.backends {
-            for &size in knob.sizes(wanted.quick) {
-                done += 1;
-                if useless.contains(&backend) {
-                    continue;
-                }
-                (control.tell)((done - 1) as f64 / steps as f64, &format!("{}: {size} {}", name(backend), knob.label()));
-                match point(wanted, (knob, size), backend, control) {
-                    Ok(point) => growth.points.push(point),
-                    Err(Missing::Stopped) => return growth,
-                    Err(Missing::Size(why)) => growth.skipped.push(format!("{}, {size} {}: {why}", name(backend), knob.label())),
-                    Err(Missing::Renderer(why)) => {
-                        growth.skipped.push(format!("{}: nothing was measured: {why}", name(backend)));
-                        useless.push(backend);
-                    }
+    let (base, mut done) = (restart_peak_memory(), 0);
+    for &backend in &wanted.backends {
+        let sizes = Knob::ALL.into_iter().flat_map(|knob| knob.sizes(wanted.quick).iter().map(move |&size| (knob, size)));
+        for (knob, size) in sizes {
+            (control.tell)(done as f64 / steps as f64, &format!("{}: {size} {}", name(backend), knob.label()));
+            match point(wanted, (knob, size), (backend, base), control) {
+                Ok(point) => growth.points.push(point),
+                Err(Missing::Stopped) => return growth,
+                Err(Missing::Size(why)) => growth.skipped.push(format!("{}, {size} {}: {why}", name(backend), knob.label())),
+                Err(Missing::Renderer(why)) => {
+                    growth.skipped.push(format!("{}: nothing was measured: {why}", name(backend)));
+                    break;
                 }
             }
+            done += 1;
         }
     }
     growth
@@ -87,7 +83,7 @@ pub fn name(backend: Backend) -> &'static str {
 /// The scene of a size, assembled in the shortest of these times.
 fn assemble(wanted: &Wanted, (knob, size): (Knob, u32), control: &Control) -> Result<Scene, Missing> {
     let lamps = Knob::Emitters.sizes(wanted.quick).iter().copied().max().unwrap_or(1);
-    let (begun, mut best, mut count) = (Instant::now(), f64::INFINITY, 0);
+    let (begun, mut best, mut count) = (Instant::now(), Costs { load_seconds: f64::INFINITY, build_seconds: 0.0 }, 0);
     loop {
         let parts = match knob {
             Knob::Triangles => field(size),
@@ -96,13 +92,16 @@ fn assemble(wanted: &Wanted, (knob, size): (Knob, u32), control: &Control) -> Re
         };
         let start = Instant::now();
         let mut scene = Scene::assemble(parts)?;
-        best = start.elapsed().as_secs_f64().min(best);
+        let seconds = start.elapsed().as_secs_f64();
+        if seconds < best.load_seconds {
+            best = Costs { load_seconds: seconds, ..scene.costs };
+        }
         count += 1;
         if control.cancel.load(Relaxed) {
             return Err(Missing::Stopped);
         }
         if count == ASSEMBLED || begun.elapsed().as_secs_f64() >= 0.5 * wanted.seconds {
-            scene.costs.load_seconds = best;
+            scene.costs = best;
             return Ok(scene);
         }
     }
@@ -124,7 +123,8 @@ fn job(wanted: &Wanted, (knob, size): (Knob, u32), backend: Backend, scene: Scen
     Job { size: [side; 2], settings, backend, weighted_layers: knob == Knob::Edges, ..Job::new(Arc::new(scene)) }
 }
 
-fn point(wanted: &Wanted, at: (Knob, u32), backend: Backend, control: &Control) -> Result<Point, Missing> {
+/// `base`: what was resident before all points.
+fn point(wanted: &Wanted, at: (Knob, u32), (backend, base): (Backend, Option<u64>), control: &Control) -> Result<Point, Missing> {
     let before = restart_peak_memory();
     let scene = assemble(wanted, at, control)?;
     let count = |list: usize| list as u64;
@@ -161,10 +161,17 @@ fn point(wanted: &Wanted, at: (Knob, u32), backend: Backend, control: &Control) 
         build: stats.build_seconds,
         scene_bytes: count(stats.scene_bytes),
         film_bytes,
-        peak_bytes: before.map(|before| stats.peak_memory_bytes.saturating_sub(before)).filter(|bytes| *bytes > 0),
+        peak_bytes: base.zip(before).and_then(|(base, before)| own_peak(stats.peak_memory_bytes, base, before)),
         adapter: stats.adapter,
         threads: stats.threads,
     })
+}
+
+/// How far a peak lies above what was resident before all points, if this point needed a sixteenth more than it found resident: then
+/// what an earlier one had left was used up.
+fn own_peak(peak: u64, base: u64, before: u64) -> Option<u64> {
+    let bytes = peak.checked_sub(base)?;
+    (bytes > 0 && peak.saturating_sub(before) >= bytes / 16).then_some(bytes)
 }
 
 /// A rendering that is timed.
@@ -235,5 +242,16 @@ impl Run<'_> {
             });
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::own_peak;
+
+    #[test]
+    fn a_peak_is_told_where_it_is_this_points_own() {
+        assert_eq!(own_peak(100, 20, 30), Some(80));
+        assert_eq!((own_peak(100, 20, 99), own_peak(100, 20, 100), own_peak(20, 20, 20), own_peak(10, 20, 5)), (None, None, None, None));
     }
 }

@@ -19,8 +19,8 @@ const DEFINITIONS: &str = "\
 - **Time** is that of the fastest of several passes (one sample per pixel): of the CPU its processor time, all threads; of a GPU the
   clock's. Time per ray is all of it over closest-hit and visibility rays. **Loading** is assembling a scene from triangles in memory, the
   hierarchy included. **Peak memory**: largest resident memory of the process while a scene was made, loaded and rendered, above what
-  was resident before. It is judged where it is 8 MiB or more, as free memory is taken first, and of the CPU alone, as a GPU's driver is in
-  it; of a GPU's own memory nothing is known.
+  was resident before the first; not told where memory that an earlier size left sufficed. It is judged where it is 8 MiB or more, and of
+  the CPU alone, as a GPU's driver is in it; of a GPU's own memory nothing is known.
 - Triangles: a hilly field in a closed room under one lamp. K and pixels: the same with 1000 triangles; K without roulette also keeps an
   image for every strategy. Emissive triangles: so many, of different powers, among a constant number of triangles.
 - `growth.csv` holds the measured numbers with all their digits.
