@@ -25,6 +25,9 @@ pub mod write;
 use crate::engine::Backend;
 use judge::Demand;
 
+/// Below it, peak memory tells nothing: what was resident before, and is free again, is taken first.
+const LEAST_PEAK: u64 = 8 << 20;
+
 /// What grows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Knob {
@@ -127,7 +130,7 @@ impl Cost {
         }
     }
 
-    /// At a point; `None` where it is not known.
+    /// At a point; `None` where it is not known: peak memory where it is small, or a GPU's driver's.
     pub fn of(self, point: &Point) -> Option<f64> {
         Some(match self {
             Self::Pass => point.time().fastest,
@@ -136,7 +139,7 @@ impl Cost {
             Self::Load => point.load,
             Self::Scene => point.scene_bytes as f64,
             Self::Film => point.film_bytes as f64,
-            Self::Peak => point.peak_bytes? as f64,
+            Self::Peak => point.peak_bytes.filter(|bytes| *bytes >= LEAST_PEAK && point.backend == Backend::Cpu)? as f64,
         })
     }
 }
