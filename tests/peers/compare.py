@@ -136,7 +136,8 @@ def entries(room: str, args: argparse.Namespace) -> list[str]:
     ours = args.ours
     if ours is None:
         ours = ["", BEST, "--integrator pt"] + (["--integrator lt"] if room != "B" else [])
-    found = [f"ours --max-edges {args.max_edges} {more}".strip() for more in ours]
+    edges = f"--max-edges {args.max_edges}"
+    found = [f"ours {more if '--max-edges' in more else f'{edges} {more}'}".strip() for more in ours]
     if "mitsuba" not in args.without:
         found += ["mitsuba path"] + (["mitsuba ptracer"] if room != "B" else [])
     return found + (["luxcore"] if "luxcore" not in args.without else [])
