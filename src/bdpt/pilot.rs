@@ -225,15 +225,16 @@ mod tests {
     #[test]
     fn the_pilot_predicts_what_rendering_finds() {
         let judged = judged("indirect", 6);
-        let families = [judged[0].family, Family { splats: false, inner: Some([u32::MAX, 2]), ..Family::ALL }];
-        let all = rendered_variance("indirect", StrategySet::ALL);
-        for family in families {
-            let predicted = judged.iter().find(|x| x.family == family).unwrap().variance;
-            let found = rendered_variance("indirect", family.set()) / all;
-            assert!((found / predicted).ln().abs() < 0.35, "{family}: predicted {predicted}, found {found}");
-        }
-        // The other way round it would not pass: the predictions differ by more than the tolerance.
         let of = |family: Family| judged.iter().find(|x| x.family == family).unwrap().variance;
-        assert!((of(families[1]) / of(families[0])).ln().abs() > 0.7, "{judged:?}");
+        let light_tracer = Family { hits: false, next_event: false, inner: None, ..Family::ALL };
+        let all = rendered_variance("indirect", StrategySet::ALL);
+        for family in [judged[0].family, light_tracer] {
+            let (predicted, found) = (of(family), rendered_variance("indirect", family.set()) / all);
+            println!("{family}: predicted {predicted}, found {found}");
+            assert!((found / predicted).ln().abs() < 0.3, "{family}: predicted {predicted}, found {found}");
+        }
+        // A set with rare, bright outliers. A pilot that waits for them to happen says 1.36, and would suggest it.
+        let spiky = Family { hits: true, next_event: false, splats: false, inner: Some([2, 3]) };
+        assert!(of(spiky) > 2.5, "{}", of(spiky));
     }
 }

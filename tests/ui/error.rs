@@ -291,7 +291,9 @@ fn a_reference_of_another_size_is_refused_in_a_sentence() {
     until(&mut window, "the smaller film", |app| app.live().frame().is_some_and(|frame| frame.size == [32, 32]));
     window.run_steps(3);
     assert_eq!(window.state().state().compare.reference, None);
-    assert!(has(&window, say(ErrorText::Gone)) && window.state().live().reference().is_none());
+    until(&mut window, "the reference's end", |app| app.live().reference().is_none());
+    window.run_steps(3);
+    assert!(has(&window, say(ErrorText::Gone)));
 }
 
 #[test]
