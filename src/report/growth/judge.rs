@@ -118,6 +118,9 @@ pub fn judge(points: &[[f64; 2]], demand: Demand, tolerance: f64) -> Judged {
 mod tests {
     use super::*;
 
+    /// A demand, and a cost that grows so with the size.
+    type Case = (Demand, fn(f64) -> f64);
+
     /// Costs at half decades from 100 to 10⁶, with errors of a few per cent.
     fn series(cost: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
         let wobble = [1.03, 0.98, 1.0, 1.05, 0.97, 1.02, 0.99, 1.04, 1.0];
@@ -126,7 +129,7 @@ mod tests {
 
     #[test]
     fn what_grows_as_demanded_passes() {
-        let all: [(Demand, fn(f64) -> f64); 5] = [
+        let all: [Case; 5] = [
             (Demand::Constant, |_| 3.0),
             (Demand::Logarithm, |n| 50.0 * n.log2()),
             (Demand::Linear, |n| 1e4 + 64.0 * n),
@@ -149,7 +152,7 @@ mod tests {
     /// The controls: the next worse class is found for every demand, also where it begins to show only at the large end.
     #[test]
     fn what_grows_faster_fails() {
-        let all: [(Demand, fn(f64) -> f64); 6] = [
+        let all: [Case; 6] = [
             (Demand::Constant, |n| n.sqrt()),
             (Demand::Logarithm, |n| 100.0 + n),
             (Demand::Logarithm, f64::sqrt),
