@@ -287,11 +287,10 @@ fn a_reference_of_another_size_is_refused_in_a_sentence() {
     window.state_mut().state_mut().messages.clear();
     give(&mut window, "right.exr", SIZE, &[Vec3::ONE; 64 * 64]);
     assert!(window.state().state().compare.reference.is_some());
+    until(&mut window, "the reference in use", |app| app.live().reference().is_some());
     window.state_mut().state_mut().resize([32, 32]);
     until(&mut window, "the smaller film", |app| app.live().frame().is_some_and(|frame| frame.size == [32, 32]));
-    window.run_steps(3);
-    assert_eq!(window.state().state().compare.reference, None);
-    until(&mut window, "the reference's end", |app| app.live().reference().is_none());
+    until(&mut window, "the reference's end", |app| app.state().compare.reference.is_none() && app.live().reference().is_none());
     window.run_steps(3);
     assert!(has(&window, say(ErrorText::Gone)));
 }

@@ -14,9 +14,9 @@ texts! { SuggestText;
     Strategies: "strategies", "策略";
     Use: "Use", "采用";
     HelpUse: "These strategies take part, the others are removed; rendering starts again", "只有这些策略参与，其余被移除；重新开始渲染";
-    Best: "Suggested: {0}.", "建议：{0}。";
+    Best: "Suggested: {}.", "建议：{}。";
     NoneBetter: "Suggested: all strategies. No other set is surely better by a tenth.", "建议：全部策略。没有其他集合确定地好出十分之一。";
     All: "all strategies", "全部策略";
     Inner: "inner connections", "内部连接";
-    NoThread: "The pilot run could not be started: {0}", "无法开始试运行：{0}";
+    NoThread: "The pilot run could not be started: {}", "无法开始试运行：{}";
 }
