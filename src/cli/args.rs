@@ -10,7 +10,7 @@ use crate::report::check::Check;
 use crate::rng::Sampler;
 use crate::scene::environment::EnvironmentSource;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{ArgAction, Args, Parser, Subcommand};
+use clap::{ArgAction, ArgMatches, Args, FromArgMatches, Parser, Subcommand};
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -145,7 +145,7 @@ pub struct InspectArgs {
 #[derive(Args)]
 pub struct CheckArgs {
     #[command(flatten)]
-    pub estimator: Option<EstimatorArgs>,
+    pub estimator: Perhaps,
     /// Only these checks, by their names in --list
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = check_parser())]
     pub only: Vec<Check>,
@@ -251,6 +251,31 @@ pub struct EstimatorArgs {
     /// Russian roulette
     #[arg(long, value_name = "on|off", action = ArgAction::Set, value_parser = PossibleValuesParser::new(["on", "off"]).map(|word| word == "on"), default_value = "on")]
     pub roulette: bool,
+}
+
+/// The same where there may be no scene. (Of arguments that hold others, clap cannot tell by itself whether they are there.)
+pub struct Perhaps(pub Option<EstimatorArgs>);
+
+impl FromArgMatches for Perhaps {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let given = matches.contains_id("scene");
+        Ok(Self(if given { Some(EstimatorArgs::from_arg_matches(matches)?) } else { None }))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl Args for Perhaps {
+    fn augment_args(command: clap::Command) -> clap::Command {
+        EstimatorArgs::augment_args(command).mut_arg("scene", |scene| scene.required(false))
+    }
+
+    fn augment_args_for_update(command: clap::Command) -> clap::Command {
+        Self::augment_args(command)
+    }
 }
 
 /// What of a scene is seen, and how.

@@ -20,7 +20,7 @@ pub fn run(args: &CheckArgs) -> Result<ExitCode, Failure> {
         print(&list());
         return Ok(ExitCode::SUCCESS);
     }
-    let Some(estimator) = &args.estimator else {
+    let Some(estimator) = &args.estimator.0 else {
         return Err(Failure(
             "check needs a scene: a built-in one (see `scenes`), or a .gltf or .glb file; --list lists the checks".to_owned(),
         ));

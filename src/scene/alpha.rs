@@ -55,14 +55,16 @@ impl Scene {
 
     #[inline(never)]
     fn accepted(&self, ray: &Ray, draws: Draws) -> (Option<Hit>, bool) {
-        let passed = Cell::new(false);
+        let rejected = Cell::new(f32::INFINITY);
         let hit = self.bvh.closest_hit_where(ray, |hit| {
             let a = self.opacity(hit);
             let accepted = a >= 1.0 || draws.number(hit.triangle) < a;
-            passed.set(passed.get() || (!accepted && a > 0.0));
+            if !accepted && a > 0.0 {
+                rejected.set(rejected.get().min(hit.distance));
+            }
             accepted
         });
-        (hit, passed.get())
+        (hit, rejected.get() < hit.map_or(f32::INFINITY, |hit| hit.distance))
     }
 
     /// V of the open segment between two points.
