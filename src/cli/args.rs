@@ -270,7 +270,7 @@ impl FromArgMatches for Perhaps {
 
 impl Args for Perhaps {
     fn augment_args(command: clap::Command) -> clap::Command {
-        EstimatorArgs::augment_args(command).mut_arg("scene", |scene| scene.required(false))
+        EstimatorArgs::augment_args(command)
     }
 
     fn augment_args_for_update(command: clap::Command) -> clap::Command {
