@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! efficiency of a set A          1/(V_A c_A)
-//! V_A = mean over pixels j of    Var_j / (mean_j² + 0.01)                    of the luminance that one pass adds
+//! V_A = mean over pixels j of    Var_j / (mean_j² + ε)                    of the luminance that one pass adds
 //!       = Σ_{i∈A} E[(w_i C*_i)²] + what different strategies of one sample have in common (t ≥ 2) − mean²
 //!       w_i   = p_i^β / Σ_{j∈A} p_j^β: every sample has the densities of all strategies, so one run weighs it for every set
 //! E_i[(w_i C*_i)²] = Σ_j E_j[ω_j C*_j² w_i² p_j/p_i]     ω_j: weights of all strategies. So a path that i makes rarely, and that is
@@ -22,6 +22,7 @@ use super::existence::Existence;
 use super::render::Plan;
 use super::settings::Settings;
 use super::strategy::{Strategy, StrategySet};
+use crate::film::difference::EPSILON;
 use run::{Candidate, Pilot, Sums};
 use std::fmt;
 
@@ -31,8 +32,6 @@ const GROUPS: usize = 4;
 const PASSES: u32 = 8;
 /// What a try costs that ends before its shadow ray, in rays.
 const TRY: f64 = 0.15;
-/// ε of the relative error.
-const EPSILON: f64 = 0.01;
 /// A set that is not better by so much is not worth a change.
 const WORTH: f64 = 1.1;
 /// Seed of the pilot: another than that of any picture that starts at 0.

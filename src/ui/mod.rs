@@ -50,6 +50,7 @@ mod space;
 pub mod state;
 mod status_bar;
 mod study;
+mod subject;
 mod suggest;
 mod summary;
 pub mod text;

@@ -2,14 +2,14 @@
 
 use super::live::Live;
 use super::state::State;
+use super::subject::Subject;
 use super::text::{Lang, SuggestText, Text, fill};
+use crate::bdpt::Settings;
 use crate::bdpt::pilot::{Family, Judged};
-use crate::bdpt::{Settings, StrategySet};
 use crate::engine::Job;
-use crate::scene::Scene;
 use crate::task;
 use eframe::egui::{self, Align2, Grid, Label, RichText, ScrollArea, Ui, Window, vec2};
-use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Rows of the table.
 const ROWS: usize = 10;
@@ -32,25 +32,10 @@ impl SuggestState {
 
 type Answer = Arc<Mutex<Option<Vec<Judged>>>>;
 
-/// What an answer depends on.
-#[derive(Clone, Debug)]
-struct Subject {
-    scene: Weak<Scene>,
-    /// Camera, lens and film, whatever they depend on.
-    view: String,
-    settings: Settings,
-}
-
-impl Subject {
-    fn of(job: &Job) -> Self {
-        // The pilot run has strategies and random numbers of its own.
-        let settings = Settings { strategies: StrategySet::ALL, seed: 0, ..job.settings };
-        Self { scene: Arc::downgrade(&job.scene), view: format!("{:?}", job.view()), settings }
-    }
-
-    fn is(&self, other: &Self) -> bool {
-        Weak::ptr_eq(&self.scene, &other.scene) && self.view == other.view && self.settings == other.settings
-    }
+/// What an answer is about. The pilot run has strategies and random numbers of its own.
+fn subject(job: &Job) -> Subject {
+    let Settings { strategies, sampler, seed, .. } = Settings::default();
+    Subject::of(job, Settings { strategies, sampler, seed, ..job.settings })
 }
 
 /// Shows the window while it is open.
@@ -79,7 +64,7 @@ fn ask(ctx: &egui::Context, state: &mut State, job: &Job) {
         ctx.request_repaint();
     };
     match task::once("pilot", work) {
-        Ok(_) => state.suggest.asked = Some((Subject::of(job), answer)),
+        Ok(_) => state.suggest.asked = Some((subject(job), answer)),
         Err(error) => {
             state.tell(true, fill(state.say(SuggestText::NoThread), &[&error.to_string()]));
             state.suggest.open = false;
@@ -98,7 +83,7 @@ fn contents(ui: &mut Ui, state: &mut State, job: &Job) {
         });
         return;
     };
-    if !about.is(&Subject::of(job)) {
+    if !about.is(&subject(job)) {
         ui.label(RichText::new(state.say(SuggestText::Stale)).color(ui.visuals().warn_fg_color));
         if ui.button(state.say(SuggestText::Again)).clicked() {
             state.suggest.asked = None;

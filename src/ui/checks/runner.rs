@@ -2,39 +2,23 @@
 //! would share the processor, and neither would be done sooner.
 
 use super::super::state::State;
+use super::super::subject::Subject;
 use super::super::text::{CheckText, fill, phrase_text};
 use super::super::wake::Wake;
 use super::Ask;
 use crate::bdpt::Settings;
 use crate::engine::{Engine, Job};
 use crate::report::check::{self, Check, CheckResult, Effort, Event, Wanted};
-use crate::scene::Scene;
 use crate::task;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
-use std::sync::{Arc, Weak};
 
-/// What results are about; when it changes, they are out of date.
-#[derive(Clone)]
-struct Subject {
-    scene: Weak<Scene>,
-    /// Camera, lens and film, whatever they depend on.
-    view: String,
-    settings: Settings,
-}
-
-impl Subject {
-    fn of(job: &Job) -> Self {
-        // The checks take all strategies, and weights and independent samples of their own.
-        let Settings { heuristic, strategies, sampler, .. } = Settings::default();
-        let settings = Settings { heuristic, strategies, sampler, ..job.settings };
-        Self { scene: Arc::downgrade(&job.scene), view: format!("{:?}", job.view()), settings }
-    }
-
-    fn is(&self, other: &Self) -> bool {
-        Weak::ptr_eq(&self.scene, &other.scene) && self.view == other.view && self.settings == other.settings
-    }
+/// What results are about. The checks take all strategies, and weights and independent samples of their own.
+fn subject(job: &Job) -> Subject {
+    let Settings { heuristic, strategies, sampler, .. } = Settings::default();
+    Subject::of(job, Settings { heuristic, strategies, sampler, ..job.settings })
 }
 
 /// Checks that run.
@@ -78,7 +62,7 @@ impl Runner {
     /// Does what the page asks for, and hears what the checks have to say. True if there is something new to show.
     pub fn sync(&mut self, state: &mut State, engine: Option<&Engine>, wake: &Wake) -> bool {
         if let Some(engine) = engine.filter(|engine| self.current.as_ref().is_none_or(|(old, _)| *old != engine.generation())) {
-            self.current = Some((engine.generation(), Subject::of(engine.job())));
+            self.current = Some((engine.generation(), subject(engine.job())));
         }
         let asked = match (state.checks.ask.take(), engine) {
             (Some(Ask::Run(checks)), Some(engine)) => {
@@ -117,7 +101,7 @@ impl Runner {
         match task::spawn("checks", work) {
             Ok(_) => {
                 let count = checks.len();
-                self.underway = Some(Underway { subject: Subject::of(job), cancel, events, left: checks, share: 0.0, count });
+                self.underway = Some(Underway { subject: subject(job), cancel, events, left: checks, share: 0.0, count });
             }
             Err(error) => state.tell(true, fill(state.say(CheckText::NoThread), &[&error.to_string()])),
         }
