@@ -69,6 +69,13 @@ impl Family {
         StrategySet::where_(|x| self.contains(x))
     }
 
+    /// The limits of its inner connections: " (s ≤ 4, t ≤ 3)"; nothing where there is none.
+    pub fn limits(&self) -> String {
+        let limits = ["s", "t"].into_iter().zip(self.inner.unwrap_or([u32::MAX; 2])).filter(|(_, max)| *max != u32::MAX);
+        let limits: Vec<_> = limits.map(|(name, max)| format!("{name} ≤ {max}")).collect();
+        if limits.is_empty() { String::new() } else { format!(" ({})", limits.join(", ")) }
+    }
+
     /// The candidates: all combinations, those first that are simplest to say.
     fn candidates(max_edges: u32) -> Vec<Self> {
         let mut limits = vec![Some([u32::MAX; 2]), None];
@@ -94,11 +101,7 @@ impl fmt::Display for Family {
         if *self == Self::ALL {
             return f.write_str("all strategies");
         }
-        let limit = |name: &str, max: u32| if max == u32::MAX { String::new() } else { format!(" {name} ≤ {max}") };
-        let inner = self.inner.map(|[s, t]| match (limit("s", s), limit("t", t)) {
-            (s, t) if s.is_empty() || t.is_empty() => format!("inner connections{s}{t}"),
-            (s, t) => format!("inner connections{s} and{t}"),
-        });
+        let inner = self.inner.map(|_| format!("inner connections{}", self.limits()));
         let named = [(self.hits, "eye hits light"), (self.next_event, "next event"), (self.splats, "light tracer")];
         let words = named.into_iter().filter(|(has, _)| *has).map(|(_, name)| name.to_owned()).chain(inner);
         f.write_str(&words.collect::<Vec<_>>().join(", "))

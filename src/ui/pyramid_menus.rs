@@ -32,6 +32,7 @@ pub fn strategies(ui: &mut Ui, state: &mut State, existence: &Existence) {
         }
         if ui.button(state.say(SuggestText::Open)).on_hover_text(state.say(SuggestText::HelpOpen)).clicked() {
             state.suggest.open = true;
+            ui.close();
         }
         ui.separator();
         families(ui, state, existence);

@@ -48,7 +48,7 @@ pub fn show(ctx: &egui::Context, state: &mut State, live: &Live) {
     let window = Window::new(state.say(SuggestText::Title)).id(egui::Id::unique("suggest")).open(&mut open);
     let room = ctx.content_rect().size() - vec2(40.0, 90.0);
     window.collapsible(false).resizable(false).anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0)).max_size(room).show(ctx, |ui| {
-        ui.set_max_width(560.0f32.min(room.x));
+        ui.set_max_width(640.0f32.min(room.x));
         contents(ui, state, job);
     });
     state.suggest.open &= open && !ctx.input(|input| input.key_pressed(egui::Key::Escape));
@@ -99,17 +99,13 @@ fn contents(ui: &mut Ui, state: &mut State, job: &Job) {
 /// The candidates, the best first, and all strategies wherever they stand.
 fn table(ui: &mut Ui, state: &mut State, job: &Job, judged: &[Judged]) {
     Grid::new("candidates").num_columns(5).spacing(vec2(16.0, 4.0)).striped(true).show(ui, |ui| {
+        ui.label("");
         let heads = [SuggestText::Efficiency, SuggestText::Variance, SuggestText::Cost, SuggestText::Strategies];
         heads.iter().for_each(|head| drop(ui.label(RichText::new(state.say(*head)).strong())));
         ui.end_row();
         let all = judged.iter().skip(ROWS).filter(|x| x.family == Family::ALL);
         for x in judged.iter().take(ROWS).chain(all) {
-            let [low, high] = [-2.0, 2.0].map(|errors| (x.ln_gain + errors * x.error).exp());
-            ui.label(format!("{low:.2}–{high:.2} ×"));
-            ui.label(format!("{:.2} ×", x.variance));
-            ui.label(format!("{:.2} ×", x.cost));
             let name = words(&x.family, state.prefs.lang);
-            ui.label(&name);
             let set = x.family.set();
             let differs = job.existence().active(&Settings { strategies: set, ..job.settings }).ne(job.existence().active(&job.settings));
             let button = ui.add_enabled(differs, egui::Button::new(state.say(SuggestText::Use)));
@@ -118,6 +114,11 @@ fn table(ui: &mut Ui, state: &mut State, job: &Job, judged: &[Judged]) {
             if button.on_hover_text(state.say(SuggestText::HelpUse)).clicked() {
                 state.settings.strategies = set;
             }
+            let [low, high] = [-2.0, 2.0].map(|errors| (x.ln_gain + errors * x.error).exp());
+            ui.label(format!("{low:.2}–{high:.2} ×"));
+            ui.label(format!("{:.2} ×", x.variance));
+            ui.label(format!("{:.2} ×", x.cost));
+            ui.label(name);
             ui.end_row();
         }
     });
@@ -130,9 +131,6 @@ fn words(family: &Family, lang: Lang) -> String {
     }
     let named = [(family.hits, Text::RoleEyeHitsLight), (family.next_event, Text::RoleNextEvent), (family.splats, Text::RoleLightTracer)];
     let named = named.into_iter().filter(|(has, _)| *has).map(|(_, text)| text.in_language(lang).to_owned());
-    let inner = family.inner.map(|limits| {
-        let bounds = ["s", "t"].into_iter().zip(limits).filter(|(_, max)| *max != u32::MAX);
-        bounds.fold(SuggestText::Inner.in_language(lang).to_owned(), |text, (name, max)| format!("{text} {name} ≤ {max}"))
-    });
+    let inner = family.inner.map(|_| format!("{}{}", SuggestText::Inner.in_language(lang), family.limits()));
     named.chain(inner).collect::<Vec<_>>().join(if lang == Lang::Zh { "、" } else { ", " })
 }
