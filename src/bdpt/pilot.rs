@@ -137,7 +137,7 @@ impl Judged {
 
 /// Judges all candidates that keep every kind of path, the most efficient first. `settings.strategies` is not looked at.
 pub fn judge(context: &Context, existence: Existence) -> Vec<Judged> {
-    let settings = Settings { strategies: StrategySet::ALL, seed: SEED, ..*context.settings };
+    let settings = Settings { strategies: StrategySet::ALL, seed: SEED, light_subpaths: 1, ..*context.settings };
     let context = Context { settings: &settings, ..*context };
     let plan = Plan::new(&settings, existence, false, false);
     let candidates = Family::candidates(settings.max_edges).into_iter().map(|family| Candidate::new(family, &plan));

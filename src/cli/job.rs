@@ -25,6 +25,7 @@ pub fn prepare(args: &EstimatorArgs, hide: bool) -> Result<Prepared, Failure> {
         sampler: args.sampler,
         heuristic: Heuristic { kind: args.heuristic, beta: args.beta, cutoff: args.cutoff },
         roulette: args.roulette,
+        light_subpaths: args.light_subpaths,
         ..job.settings
     };
     let job = Job { settings, ..job };

@@ -3,7 +3,7 @@
 use super::{EPSILON, Family, Judged, PASSES, SEED, TRY};
 use crate::bdpt::connect::Sample;
 use crate::bdpt::context::Context;
-use crate::bdpt::mis::{log_densities, weights_of_log_densities};
+use crate::bdpt::mis::{log_densities, weights_of_log_expected};
 use crate::bdpt::path::FullPath;
 use crate::bdpt::render::Plan;
 use crate::bdpt::settings::{Heuristic, HeuristicKind};
@@ -222,7 +222,7 @@ impl<'a> Shares<'a> {
         let member = |s: usize| row >> s & 1 == 1 && self.path.samplable[s];
         if self.powers.is_empty() {
             let active: Vec<bool> = (0..self.ln_p.len()).map(member).collect();
-            let weights = weights_of_log_densities(&self.ln_p, &active, self.heuristic);
+            let weights = weights_of_log_expected(&self.ln_p, &active, self.heuristic);
             let term = |(w, p): (&f64, &f64)| if *w > 0.0 { w * w * (self.ln_p[self.made] - p).exp() } else { 0.0 };
             let moment = weights.iter().zip(&self.ln_p).map(term).sum();
             return (weights.iter().sum::<f64>() > 0.0).then(|| (weights[self.made], moment));
