@@ -8,6 +8,7 @@ mod hard;
 mod images;
 mod lens;
 mod lights;
+mod missing;
 mod normals;
 mod replay;
 mod samplers;

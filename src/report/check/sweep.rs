@@ -71,9 +71,22 @@ impl Task<'_> {
 
     /// Traces and visits samples until the budget is spent; returns what was found, and in how many samples.
     pub async fn sweep<A: Merge>(&mut self, settings: &Settings, visit: impl Fn(&Context, &mut Sample, &mut A) + Sync) -> (A, u64) {
+        let (light, eye) = ((settings.max_edges + self.lens()) as usize, settings.max_edges as usize + 1);
+        self.sweep_untraced(settings, |context, id, sample, found| {
+            sample.trace(context, id, light, eye);
+            visit(context, sample, found);
+        })
+        .await
+    }
+
+    /// The same for those who trace what they need of a sample themselves.
+    pub async fn sweep_untraced<A: Merge>(
+        &mut self,
+        settings: &Settings,
+        visit: impl Fn(&Context, SampleId, &mut Sample, &mut A) + Sync,
+    ) -> (A, u64) {
         let (view, budget) = (&self.view, self.budget);
         let context = Context::new(&self.job.scene, view, settings);
-        let (light, eye) = ((settings.max_edges + self.lens()) as usize, settings.max_edges as usize + 1);
         let order = Order::of(view.size);
         let (mut found, mut done, mut spent) = (A::default(), 0, Duration::ZERO);
         while done < budget.samples && spent < budget.time && !self.cancel.load(Relaxed) {
@@ -84,8 +97,7 @@ impl Task<'_> {
                 .map_init(Sample::default, |sample, chunk| {
                     let mut part = A::default();
                     for n in chunk * CHUNK..((chunk + 1) * CHUNK).min(round) {
-                        sample.trace(&context, order.sample(done + n, settings), light, eye);
-                        visit(&context, sample, &mut part);
+                        visit(&context, order.sample(done + n, settings), sample, &mut part);
                     }
                     part
                 })
