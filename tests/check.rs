@@ -10,6 +10,8 @@ mod controls;
 mod glb;
 #[path = "check/measure.rs"]
 mod measure;
+#[path = "check/missing.rs"]
+mod missing;
 #[path = "common/skip.rs"]
 mod skip;
 #[path = "check/verdicts.rs"]
@@ -22,7 +24,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 /// The checks that need no graphics adapter.
-const ON_CPU: [Check; 5] = [Check::Replay, Check::Pairwise, Check::Furnace, Check::Integrators, Check::Finite];
+const ON_CPU: [Check; 6] = [Check::Replay, Check::Pairwise, Check::Furnace, Check::Integrators, Check::Finite, Check::Missing];
 
 fn scene(name: &str) -> Scene {
     builtin::open(name).expect("a built-in scene opens")

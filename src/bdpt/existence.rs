@@ -1,11 +1,7 @@
-//! Which strategies exist in a scene, why the others do not, and which paths no strategy in use can make.
-//!
-//! A path is written in Heckbert's letters: L a light that can be hit, L₀ one without extent (point, spot, directional), E the
-//! lens, D a surface where connections can be made, S one that scatters into single directions, S⁺ one or more of them. Strategy
-//! s makes it if x_{s−1} and x_s are both L, L₀, D or E; s = 0 if it starts at L; s = k + 1 if E is a lens with an area.
+//! Which strategies exist in a scene, and why the others do not. ([`super::kinds`]: which paths none of them makes.)
 
 use super::settings::Settings;
-use super::strategy::{Strategy, StrategySet};
+use super::strategy::Strategy;
 use crate::scene::Scene;
 use serde::Serialize;
 
@@ -89,77 +85,6 @@ impl Existence {
         let takes_part = move |x: &Strategy| settings.strategies.contains(*x) && self.absence(*x).is_none();
         Strategy::all(settings.max_edges, true).filter(takes_part)
     }
-
-    /// The shortest kinds of paths, of at most five edges, that no strategy in use can make: their light is missing. Runs of S
-    /// count as one kind. At most four.
-    pub fn lost_paths(&self, settings: &Settings) -> Vec<String> {
-        let mut lost = Vec::new();
-        for kind in self.kinds(settings.max_edges.min(5)).filter(|kind| !self.make(kind, &settings.strategies)) {
-            let name = name(if kind.can_be_hit { "L" } else { "L₀" }, (1..kind.k).map(|i| kind.dirac(i)));
-            if !lost.contains(&name) {
-                lost.push(name);
-            }
-        }
-        lost.truncate(4);
-        lost
-    }
-
-    /// Can these strategies make every kind of path, of at most ten edges, that all together can?
-    pub fn keep_all(&self, strategies: &StrategySet, max_edges: u32) -> bool {
-        self.kinds(max_edges.min(10)).all(|kind| self.make(&kind, strategies) || !self.make(&kind, &StrategySet::ALL))
-    }
-
-    /// All kinds of paths that there are, the shortest first.
-    fn kinds(&self, max_edges: u32) -> impl Iterator<Item = Kind> + '_ {
-        let kinds = move |k: u32| {
-            [true, false].into_iter().flat_map(move |can_be_hit| (0..1u32 << (k - 1)).map(move |diracs| Kind { k, can_be_hit, diracs }))
-        };
-        (1..=max_edges).flat_map(kinds).filter(|kind| {
-            let lit = if kind.can_be_hit { self.lights_to_hit } else { self.dirac_lights && kind.k > 1 };
-            lit && (1..kind.k).all(|i| if kind.dirac(i) { self.dirac_surfaces } else { self.diffuse })
-        })
-    }
-
-    /// Can one of these strategies make it?
-    fn make(&self, kind: &Kind, strategies: &StrategySet) -> bool {
-        let k = kind.k;
-        let samplable = |s: u32| match s {
-            0 => kind.can_be_hit,
-            s if s == k + 1 => self.lens,
-            s => !kind.dirac(s - 1) && !kind.dirac(s),
-        };
-        (0..=k + 1).any(|s| samplable(s) && strategies.contains(Strategy::new(s, k + 1 - s)))
-    }
-}
-
-/// A kind of path.
-struct Kind {
-    /// Its edges.
-    k: u32,
-    /// Does its light have an extent?
-    can_be_hit: bool,
-    /// Bit i: is x_{i+1} a Dirac?
-    diracs: u32,
-}
-
-impl Kind {
-    fn dirac(&self, i: u32) -> bool {
-        (1..self.k).contains(&i) && self.diracs >> (i - 1) & 1 == 1
-    }
-}
-
-/// A kind of path in letters.
-fn name(light: &str, diracs: impl Iterator<Item = bool>) -> String {
-    let mut text = light.to_owned();
-    for dirac in diracs {
-        match dirac {
-            true if text.ends_with("S⁺") => {}
-            true => text.push_str("S⁺"),
-            false => text.push('D'),
-        }
-    }
-    text.push('E');
-    text
 }
 
 #[cfg(test)]
@@ -167,28 +92,6 @@ mod tests {
     use super::*;
 
     const EVERYTHING: Existence = Existence { lights_to_hit: true, dirac_lights: false, diffuse: true, dirac_surfaces: true, lens: true };
-
-    fn lost(existence: Existence, strategies: StrategySet) -> Vec<String> {
-        existence.lost_paths(&Settings { strategies, ..Settings::default() })
-    }
-
-    #[test]
-    fn a_light_or_a_lens_with_an_area_loses_nothing() {
-        assert!(lost(EVERYTHING, StrategySet::ALL).is_empty());
-        assert!(lost(Existence { lens: false, ..EVERYTHING }, StrategySet::ALL).is_empty());
-        let points = Existence { lights_to_hit: false, dirac_lights: true, ..EVERYTHING };
-        assert!(lost(points, StrategySet::ALL).is_empty());
-    }
-
-    #[test]
-    fn a_point_light_a_pinhole_and_a_mirror_lose_what_no_strategy_can_make() {
-        let points = Existence { lights_to_hit: false, dirac_lights: true, lens: false, ..EVERYTHING };
-        assert_eq!(lost(points, StrategySet::ALL), ["L₀S⁺E", "L₀S⁺DS⁺E"]);
-        // A path tracer loses the caustics as well, a light tracer all that is seen in a mirror.
-        assert_eq!(lost(points, StrategySet::path_tracer())[..2], ["L₀S⁺E", "L₀S⁺DE"]);
-        assert_eq!(lost(points, StrategySet::light_tracer())[..2], ["L₀S⁺E", "L₀DS⁺E"]);
-        assert!(lost(Existence { dirac_surfaces: false, ..points }, StrategySet::ALL).is_empty());
-    }
 
     #[test]
     fn what_exists_follows_from_lights_lens_and_surfaces() {

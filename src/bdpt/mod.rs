@@ -11,12 +11,14 @@
 //! | w_{s,t} | `mis_weight` | share of the strategy in the path |
 //! | C_{s,t} | `contribution` | w C* |
 
+pub mod blur;
 pub mod connect;
 pub mod context;
 pub mod crossing;
 pub mod ends;
 pub mod existence;
 pub mod joint;
+pub mod kinds;
 pub mod mis;
 pub mod path;
 pub mod pilot;
@@ -32,6 +34,7 @@ pub mod visibility;
 pub mod walk;
 
 pub use existence::{Absence, Existence};
+pub use kinds::Kind;
 pub use reason::Reason;
 pub use record::PathRecord;
 pub use settings::{Heuristic, HeuristicKind, Settings};

@@ -68,7 +68,14 @@ impl<F: Shape> Context<'_, F> {
     }
 
     /// Walks z₀, z₁, … up to `max_vertices` through a point of the pixel; returns that raster position.
+    #[inline]
     pub fn eye_subpath(&self, id: SampleId, max_vertices: usize, out: &mut Subpath, rays: &mut u64) -> Vec2 {
+        self.eye_subpath_and_step(id, max_vertices, out, rays).0
+    }
+
+    /// The same; also returns the step that left the scene, if one did.
+    #[inline]
+    pub fn eye_subpath_and_step(&self, id: SampleId, max_vertices: usize, out: &mut Subpath, rays: &mut u64) -> (Vec2, Option<Step>) {
         out.vertices.clear();
         out.end = End::NotNeeded;
         let u = id.numbers(BLOCK_EYE_START);
@@ -82,7 +89,7 @@ impl<F: Shape> Context<'_, F> {
         let pdf_fwd_psa = self.view.pdf_direction_psa_on_film(direction);
         let mut step = Step { direction, pdf_fwd_psa, alpha: z0.alpha * self.view.pixels() };
         out.end = self.walk(&mut step, TransportMode::Radiance, id, max_vertices, &mut out.vertices, rays);
-        raster
+        (raster, (out.end == End::Escaped).then_some(step))
     }
 
     /// Continues a subpath from its last vertex.

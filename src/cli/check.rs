@@ -1,4 +1,5 @@
-//! `check`: the checks on a scene, as a table with a paragraph per failure, or as JSON; exit status 1 if one fails.
+//! `check`: the checks on a scene, as a table with a paragraph per failure, or as JSON; exit status 1 if one fails. (Light that no
+//! strategy can bring is no failure.)
 
 use super::args::CheckArgs;
 use super::job::prepare;
@@ -70,8 +71,9 @@ fn table(results: &[CheckResult]) -> String {
     }
     for result in results {
         for finding in &result.findings {
-            let _ = writeln!(text, "\n{} {}: {}", result.check.id(), Verdict::Fail.word().text(), finding.meaning);
-            let _ = writeln!(text, "  where to look: {}", finding.look);
+            let _ = writeln!(text, "\n{} {}: {}", result.check.id(), result.verdict.word().text(), finding.meaning);
+            let title = if result.verdict == Verdict::LightMissing { "what helps" } else { "where to look" };
+            let _ = writeln!(text, "  {title}: {}", finding.look);
             if let Some(place) = finding.place {
                 let ([x, y], sample) = (place.pixel, place.sample);
                 let _ = writeln!(text, "  worst case: inspect … --pixel {x},{y} --sample {sample}, strategy {}", place.strategy);

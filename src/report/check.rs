@@ -7,12 +7,14 @@
 //! integrators  E_BDPT[(f/p) h] = E_PT[…] = E_LT[…],  h = P_PT P_LT/((P_PT + P_LT) P)            (block by block)
 //! finite       no contribution is infinite, no number, negative, or too large to count
 //! gpu          both renderers draw the same samples
+//! missing      what part of the light no strategy in use can bring                             (told, and no failure)
 //! ```
 
 pub mod finite;
 pub mod furnace;
 pub mod gpu;
 pub mod integrators;
+pub mod missing;
 pub mod pairwise;
 pub mod replay;
 pub mod said;
@@ -51,11 +53,13 @@ pub enum Check {
     Finite,
     /// CPU = GPU.
     Gpu,
+    /// Light that no strategy in use can bring.
+    Missing,
 }
 
 impl Check {
     /// All of them, in the order in which they run.
-    pub const ALL: [Self; 6] = [Self::Replay, Self::Pairwise, Self::Furnace, Self::Integrators, Self::Finite, Self::Gpu];
+    pub const ALL: [Self; 7] = [Self::Replay, Self::Pairwise, Self::Furnace, Self::Integrators, Self::Finite, Self::Gpu, Self::Missing];
 
     /// What it is called on the command line.
     pub const fn id(self) -> &'static str {
@@ -66,6 +70,7 @@ impl Check {
             Self::Integrators => "integrators",
             Self::Finite => "finite",
             Self::Gpu => "gpu",
+            Self::Missing => "missing",
         }
     }
 
@@ -83,6 +88,7 @@ impl Check {
             Self::Integrators => Phrase::NameIntegrators,
             Self::Finite => Phrase::NameFinite,
             Self::Gpu => Phrase::NameGpu,
+            Self::Missing => Phrase::NameMissing,
         }
     }
 
@@ -95,6 +101,7 @@ impl Check {
             Self::Integrators => Phrase::AboutIntegrators,
             Self::Finite => Phrase::AboutFinite,
             Self::Gpu => Phrase::AboutGpu,
+            Self::Missing => Phrase::AboutMissing,
         }
     }
 
@@ -107,6 +114,7 @@ impl Check {
             Self::Integrators => (100_000, 2.5),
             Self::Finite => (20_000, 1.0),
             Self::Gpu => (4, 1.0),
+            Self::Missing => (1_000_000, 2.5),
         };
         match effort {
             Effort::Quick => Budget { samples, time: Duration::from_secs_f64(seconds) },
@@ -134,6 +142,8 @@ pub enum Verdict {
     Pass,
     /// It is not.
     Fail,
+    /// What is rendered is right, but some of the light is not rendered at all.
+    LightMissing,
     /// Too little was seen to say either.
     NotEnoughSamples,
     /// The check means nothing here, for this reason.
@@ -146,6 +156,7 @@ impl Verdict {
         match self {
             Self::Pass => Phrase::Passed,
             Self::Fail => Phrase::Failed,
+            Self::LightMissing => Phrase::SomeIsMissing,
             Self::NotEnoughSamples => Phrase::TooFew,
             Self::NotApplicable(_) => Phrase::DoesNotApply,
         }
@@ -156,6 +167,7 @@ impl Verdict {
         match self {
             Self::Pass => "pass",
             Self::Fail => "fail",
+            Self::LightMissing => "light_missing",
             Self::NotEnoughSamples => "not_enough_samples",
             Self::NotApplicable(_) => "not_applicable",
         }
@@ -231,7 +243,7 @@ pub struct CheckResult {
     pub figure: Option<f64>,
     /// What it may be at most (`gpu`: at least).
     pub bound: Option<f64>,
-    /// What is wrong, the worst first; empty unless it failed.
+    /// What is wrong or missing, the worst first; empty unless it failed or light is missing.
     pub findings: Vec<Finding>,
     /// Samples, that is pairs of subpaths, looked at.
     pub samples: u64,
@@ -348,6 +360,7 @@ pub async fn go_through(job: &Job, wanted: &Wanted, tell: &mut dyn FnMut(Event),
             Check::Integrators => integrators::check(&mut task).await,
             Check::Finite => finite::check(&mut task).await,
             Check::Gpu => gpu::check(&mut task, wanted.effort).await,
+            Check::Missing => missing::check(&mut task).await,
         };
         if cancel.load(Relaxed) {
             break;

@@ -1,6 +1,6 @@
 //! Which panels can be seen.
 
-use super::state::{Source, State};
+use super::state::{Source, State, Tab};
 use crate::bdpt::Strategy;
 use crate::engine::Mode;
 
@@ -20,6 +20,14 @@ pub enum Maximised {
 }
 
 impl State {
+    /// Shows a page of the inspector, and that in front of what would hide it.
+    pub fn bring(&mut self, tab: Tab) {
+        (self.prefs.tab, self.prefs.inspector_open, self.beside) = (tab, true, Maximised::Inspector);
+        if self.maximised != Maximised::Inspector {
+            self.maximised = Maximised::None;
+        }
+    }
+
     /// Shows a strategy's picture in the image view, and that in front of what would hide it.
     pub fn open_large(&mut self, strategy: Strategy, mode: Mode) {
         self.compare.a = Source::Strategy(strategy, mode);

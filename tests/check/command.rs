@@ -39,6 +39,24 @@ fn json_is_for_scripts() {
     assert!(finite["samples"].as_u64().unwrap() > 1000);
 }
 
+/// Light that no strategy can bring is told, and is no failure.
+#[test]
+fn light_that_is_missing_is_told_with_status_0() {
+    let output = check("point-mirror --only missing --size 64x48");
+    let (out, err) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(0), "{out}{err}");
+    assert!(out.starts_with("missing      light is missing   about "), "{out}");
+    for part in
+        [" % of the light (95 %: ", "L₀S⁺E ", "half of that would be ", "\nmissing light is missing: ", "\n  what helps: Open the aperture"]
+    {
+        assert!(out.contains(part), "{part}: {out}");
+    }
+    let output = check("point-mirror --only missing --size 64x48 --lens-radius 0.08 --json");
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let found = &report["checks"][0];
+    assert_eq!((&found["verdict"], &found["figure"], &found["samples"]), (&"pass".into(), &0.0.into(), &0.into()), "{report}");
+}
+
 #[test]
 fn a_failure_is_a_sentence_a_place_to_look_and_status_1() {
     // A lamp so bright and so large that f32 cannot hold its power.
@@ -64,8 +82,8 @@ fn a_failure_is_a_sentence_a_place_to_look_and_status_1() {
 fn the_checks_are_listed() {
     let output = check("--list");
     let out = text(&output.stdout);
-    assert_eq!((output.status.code(), out.lines().count()), (Some(0), 6), "{out}{}", text(&output.stderr));
-    for id in ["replay", "pairwise", "furnace", "integrators", "finite", "gpu"] {
+    assert_eq!((output.status.code(), out.lines().count()), (Some(0), 7), "{out}{}", text(&output.stderr));
+    for id in ["replay", "pairwise", "furnace", "integrators", "finite", "gpu", "missing"] {
         assert!(out.lines().any(|line| line.starts_with(id)), "{id}");
     }
 }

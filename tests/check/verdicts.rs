@@ -21,7 +21,8 @@ fn every_built_in_scene_passes() {
         for result in run(&job, &Wanted::new(ON_CPU, Effort::Samples(0.1))) {
             show(&job, &result);
             assert_ne!(result.verdict, Verdict::Fail, "{}: {}", job.scene.name, result.check.id());
-            assert!(result.findings.is_empty());
+            assert_eq!(result.findings.is_empty(), result.verdict != Verdict::LightMissing);
+            assert_eq!(result.verdict == Verdict::LightMissing, result.check == Check::Missing && job.scene.name == "point-mirror");
             applicable += usize::from(result.reason().is_none());
             passed += usize::from(result.verdict == Verdict::Pass);
             // Figure and bound say the same as the verdict.
@@ -30,7 +31,7 @@ fn every_built_in_scene_passes() {
             }
         }
     }
-    assert_eq!(applicable, 14 * 4 + 2, "all but the furnace apply everywhere, and that to itself");
+    assert_eq!(applicable, 14 * 5 + 2, "all but the furnace apply everywhere, and that to itself");
     assert!(passed + 6 >= applicable, "{passed} of {applicable}: too few samples to mean anything");
 }
 
@@ -67,7 +68,7 @@ fn a_check_that_means_nothing_says_why() {
     let dark = job_of(dark);
     assert_eq!(reason(&one(&dark, Check::Pairwise, 0.01, Control::default())), Phrase::OneStrategy);
     assert_eq!(reason(&one(&dark, Check::Integrators, 0.01, Control::default())), Phrase::NoFamily);
-    for check in [Check::Replay, Check::Finite, Check::Gpu] {
+    for check in [Check::Replay, Check::Finite, Check::Gpu, Check::Missing] {
         assert_eq!(reason(&one(&dark, check, 0.01, Control::default())), Phrase::NoLightAtAll, "{check:?}");
     }
 }

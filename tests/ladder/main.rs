@@ -9,6 +9,7 @@ mod images;
 mod lens;
 mod light_subpaths;
 mod lights;
+mod missing;
 mod normals;
 mod replay;
 mod samplers;

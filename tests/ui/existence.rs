@@ -41,7 +41,7 @@ fn strategies_that_do_not_exist_say_why_in_both_languages() {
 #[test]
 fn light_that_no_strategy_can_bring_is_reported_while_it_is_missing() {
     let mut window = showing(scenes::point_and_mirror());
-    window.get_by_label("No strategy in use can make L₀S⁺E, L₀S⁺DS⁺E: that light is missing.");
+    window.get_by_label("No strategy in use can make L₀S⁺E, L₀S⁺DS⁺E, L₀S⁺DS⁺DS⁺E: that light is missing.");
     // A path tracer loses the caustics as well.
     click(&mut window, Role::Button, "PT");
     assert!(window.query_by_label_contains("can make L₀S⁺E, L₀S⁺DE").is_some());

@@ -27,6 +27,7 @@ phrases! {
     // Verdicts.
     Passed: "passed";
     Failed: "failed";
+    SomeIsMissing: "light is missing";
     TooFew: "not enough samples";
     DoesNotApply: "does not apply";
     // Names.
@@ -36,6 +37,7 @@ phrases! {
     NameIntegrators: "BDPT = PT = LT";
     NameFinite: "Finite numbers";
     NameGpu: "CPU = GPU";
+    NameMissing: "Missing light";
     // What they mean.
     AboutReplay: "Every sampled path is rebuilt from its points alone by every strategy that could have made it: they must agree on its densities and its light, and the weights, each computed on its own, must sum to 1.";
     AboutPairwise: "For every path length, any two strategies must find the same light on the paths that both can make.";
@@ -43,6 +45,7 @@ phrases! {
     AboutIntegrators: "All strategies together, the path tracer's and the light tracer's must find the same light, on the paths that the latter two both can make, all over the picture.";
     AboutFinite: "No contribution, under any weights, may be infinite, no number at all, or negative, and no splat too large to count.";
     AboutGpu: "Both renderers draw the same samples: nearly all their pixels must be equal.";
+    AboutMissing: "Some light no strategy in use can bring, however long it renders, such as a point light seen in a mirror by a pinhole. How much? All strategies together say, and where none helps, lights without extent are blurred a little.";
     // What was measured.
     MeasuredReplay: "{} paths rebuilt {} times: p differs by {} at most, f by {}, Σw from 1 by {} (relative; bound {}, which {} paths exceed)";
     MeasuredPairwise: "{} pairs judged, the largest |z| is {} (bound {}, level {} over all pairs); {} pairs had not enough samples";
@@ -50,6 +53,10 @@ phrases! {
     MeasuredIntegrators: "PT finds {} ± {} of the light of BDPT, LT {} ± {}; {} comparisons, the largest |z| is {} (bound {}, level {})";
     MeasuredFinite: "{} contributions: {} not finite, {} negative, {} weights outside 0…1; {} passes under {} kinds of weights: {} left out, {} too large";
     MeasuredGpu: "{} of {} values equal to {} after {} passes (at least {} must be); {}";
+    MeasuredNothingMissing: "strategies in use make every kind of path of at most {} edges: nothing is missing";
+    MeasuredMissing: "about {} % of the light (95 %: {} to {} %), on paths of at most {} edges: {}";
+    MeasuredMissingBlurred: "{}; lights without extent are blurred to {} % of the scene's radius, which with half of that would be {} %";
+    MeasuredMissingTooRare: "no strategy in use can make {}, but only {} such paths were found in {} samples: too few to say how much is missing";
     // Why a check does not apply.
     OneStrategy: "for no path length are there two strategies that could be compared";
     NoLightAtAll: "the scene has no light";
@@ -57,6 +64,7 @@ phrases! {
     FurnaceMaterial: "not all surfaces are of one plain diffuse material that emits";
     FurnaceLights: "there are other lights than glowing surfaces";
     FurnaceOpen: "the room is not closed, or not all of it glows inwards";
+    OnlyLongOnesMissing: "only paths of more than {} edges are missing, which are not looked at";
     GpuCannot: "the GPU does not render here. {}.";
     // What failures mean, and where to look.
     WrongDensity: "Two strategies disagree about the density of the same path (ln p differs by {}): the weights are wrong, and where that p divides f, so is the image.";
@@ -95,6 +103,8 @@ phrases! {
     LookFinite: "{} under the {} weights. src/bdpt/connect.rs: G of a short edge, a density that is 0 or overflows f32.";
     LookSplat: "src/bdpt/render.rs, splat_quantum; src/film/mod.rs: 2⁶³ quanta a pass.";
     WrongGpu: "The renderers agree in {} of all values only: a kernel computes something else.";
+    LightIsMissing: "The picture is darker than the scene: no strategy in use can make {}, however many samples are taken.";
+    LookMissing: "Open the aperture, and light that runs into the lens (t = 0) brings all of it; give the lights an extent, and eye paths run into them (s = 0); or take removed strategies in again.";
     LookGpu: "Largest difference at pixel {} of the {} picture. shaders/*.wgsl against its twin of the same name in src/; tests/gpu finds the function.";
 }
 

@@ -52,7 +52,8 @@ pub trait Merge: Default + Send {
 
 impl Task<'_> {
     /// The job's settings with all strategies, the default weights and at most `max_edges` edges: a check is about the scene, not
-    /// about what is switched off. Every strategy is tried once in each of its samples, and these are independent: that is what tests of means and variances rest on.
+    /// about what is switched off. Every strategy is tried once in each of its samples, and these are independent: that is what tests
+    /// of means and variances rest on.
     pub fn settings(&self, max_edges: u32) -> Settings {
         let own = self.job.settings;
         Settings {
@@ -72,9 +73,22 @@ impl Task<'_> {
 
     /// Traces and visits samples until the budget is spent; returns what was found, and in how many samples.
     pub async fn sweep<A: Merge>(&mut self, settings: &Settings, visit: impl Fn(&Context, &mut Sample, &mut A) + Sync) -> (A, u64) {
+        let (light, eye) = ((settings.max_edges + self.lens()) as usize, settings.max_edges as usize + 1);
+        self.sweep_untraced(settings, |context, id, sample, found| {
+            sample.trace(context, id, light, eye);
+            visit(context, sample, found);
+        })
+        .await
+    }
+
+    /// The same for those who trace what they need of a sample themselves.
+    pub async fn sweep_untraced<A: Merge>(
+        &mut self,
+        settings: &Settings,
+        visit: impl Fn(&Context, SampleId, &mut Sample, &mut A) + Sync,
+    ) -> (A, u64) {
         let (view, budget) = (&self.view, self.budget);
         let context = Context::new(&self.job.scene, view, settings);
-        let (light, eye) = ((settings.max_edges + self.lens()) as usize, settings.max_edges as usize + 1);
         let order = Order::of(view.size);
         let (mut found, mut done, mut spent) = (A::default(), 0, Duration::ZERO);
         while done < budget.samples && spent < budget.time && !self.cancel.load(Relaxed) {
@@ -85,8 +99,7 @@ impl Task<'_> {
                 .map_init(Sample::default, |sample, chunk| {
                     let mut part = A::default();
                     for n in chunk * CHUNK..((chunk + 1) * CHUNK).min(round) {
-                        sample.trace(&context, order.sample(done + n, settings), light, eye);
-                        visit(&context, sample, &mut part);
+                        visit(&context, order.sample(done + n, settings), sample, &mut part);
                     }
                     part
                 })

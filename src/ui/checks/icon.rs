@@ -12,6 +12,8 @@ pub enum Mark {
     Passed,
     /// Failed: a triangle with an exclamation mark.
     Failed,
+    /// Light is missing: a disc of which a part is.
+    Missing,
     /// Too few samples: three dots in a ring.
     TooFew,
     /// Does not apply: a dash in a ring.
@@ -28,6 +30,7 @@ impl Mark {
         match verdict {
             Verdict::Pass => Self::Passed,
             Verdict::Fail => Self::Failed,
+            Verdict::LightMissing => Self::Missing,
             Verdict::NotEnoughSamples => Self::TooFew,
             Verdict::NotApplicable(_) => Self::DoesNotApply,
         }
@@ -43,7 +46,7 @@ impl Mark {
         match self {
             Self::Passed | Self::Running(_) => theme::bar(visuals),
             Self::Failed => visuals.error_fg_color,
-            Self::TooFew => visuals.warn_fg_color,
+            Self::TooFew | Self::Missing => visuals.warn_fg_color,
             Self::DoesNotApply | Self::None => visuals.weak_text_color(),
         }
     }
@@ -74,6 +77,10 @@ pub fn show(ui: &mut Ui, mark: Mark, faint: bool) {
             painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
             painter.line_segment([c + vec2(0.0, -3.0), c + vec2(0.0, 2.6)], thick);
             painter.circle_filled(c + vec2(0.0, 5.2), 1.2, inside);
+        }
+        Mark::Missing => {
+            painter.circle_filled(c, 8.0, colour);
+            painter.circle_filled(c + vec2(3.6, -3.6), 5.0, inside);
         }
         Mark::TooFew => {
             painter.circle_stroke(c, 7.5, line);

@@ -36,6 +36,19 @@ pub struct ChecksState {
     pub unfolded: Vec<Check>,
 }
 
+/// Opens the page, and asks how much light is missing, if that is not known.
+pub fn ask_what_is_missing(state: &mut State, runner: &Runner) {
+    state.bring(Tab::Checks);
+    let known = runner.result(Check::Missing).is_some_and(|(_, current)| current);
+    let asked = runner.progress().is_some_and(|(check, ..)| check == Check::Missing) || runner.waits(Check::Missing);
+    if !known && !asked {
+        state.checks.ask = Some(Ask::Run(vec![Check::Missing]));
+    }
+    if !state.checks.unfolded.contains(&Check::Missing) {
+        state.checks.unfolded.push(Check::Missing);
+    }
+}
+
 /// Shows the page.
 pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     ui.label(RichText::new(state.say(CheckText::Title)).heading());
@@ -122,7 +135,7 @@ fn row(ui: &mut Ui, state: &mut State, runner: &Runner, check: Check) {
     // A failure explains itself without a click; the others of its kind are there for who wants to know.
     let count = if unfolded { result.findings.len() } else { 1 };
     for finding in result.findings.iter().take(count) {
-        explain(ui, state, finding, stale);
+        explain(ui, state, (&result.verdict, finding), stale);
     }
 }
 
@@ -174,10 +187,11 @@ fn verdict(ui: &mut Ui, state: &State, (mark, word, stale): (Mark, &str, bool), 
     }
 }
 
-/// What a failure means, and where to look.
-fn explain(ui: &mut Ui, state: &mut State, finding: &Finding, stale: bool) {
+/// What a failure means, and where to look; what light is missing, and what helps.
+fn explain(ui: &mut Ui, state: &mut State, (verdict, finding): (&Verdict, &Finding), stale: bool) {
     let lang = state.prefs.lang;
-    for (title, text) in [(CheckText::WhatItMeans, &finding.meaning), (CheckText::WhereToLook, &finding.look)] {
+    let look = if *verdict == Verdict::LightMissing { CheckText::WhatHelps } else { CheckText::WhereToLook };
+    for (title, text) in [(CheckText::WhatItMeans, &finding.meaning), (look, &finding.look)] {
         ui.label(RichText::new(state.say(title)).strong());
         ui.add(Label::new(said(text, lang)).wrap());
     }

@@ -15,15 +15,29 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-/// What results are about. The checks take all strategies, each as often, and weights and independent samples of their own.
-fn subject(job: &Job) -> Subject {
-    let Settings { heuristic, strategies, sampler, light_subpaths, .. } = Settings::default();
-    Subject::of(job, Settings { heuristic, strategies, sampler, light_subpaths, ..job.settings })
+/// What results are about: of all strategies, and of those in use. The checks try each as often, and have weights and independent
+/// samples of their own.
+#[derive(Clone)]
+struct Subjects([Subject; 2]);
+
+impl Subjects {
+    fn of(job: &Job) -> Self {
+        let Settings { heuristic, strategies, sampler, light_subpaths, .. } = Settings::default();
+        Self([strategies, job.settings.strategies].map(|strategies| {
+            let settings = Settings { heuristic, strategies, sampler, light_subpaths, ..job.settings };
+            Subject::of(job, settings)
+        }))
+    }
+
+    /// What is missing depends on the strategies in use; for the others, a check is about the scene.
+    fn get(&self, check: Check) -> &Subject {
+        &self.0[usize::from(check == Check::Missing)]
+    }
 }
 
 /// Checks that run.
 struct Underway {
-    subject: Subject,
+    subjects: Subjects,
     cancel: Arc<AtomicBool>,
     events: Receiver<Event>,
     /// The ones that are not over yet; the first one runs.
@@ -55,14 +69,14 @@ pub struct Runner {
     underway: Option<Underway>,
     results: BTreeMap<Check, (Arc<CheckResult>, Subject)>,
     /// What is being rendered, and the generation it was looked up for.
-    current: Option<(u64, Subject)>,
+    current: Option<(u64, Subjects)>,
 }
 
 impl Runner {
     /// Does what the page asks for, and hears what the checks have to say. True if there is something new to show.
     pub fn sync(&mut self, state: &mut State, engine: Option<&Engine>, wake: &Wake) -> bool {
         if let Some(engine) = engine.filter(|engine| self.current.as_ref().is_none_or(|(old, _)| *old != engine.generation())) {
-            self.current = Some((engine.generation(), subject(engine.job())));
+            self.current = Some((engine.generation(), Subjects::of(engine.job())));
         }
         let asked = match (state.checks.ask.take(), engine) {
             (Some(Ask::Run(checks)), Some(engine)) => {
@@ -73,7 +87,8 @@ impl Runner {
             _ => false,
         };
         // What is about something else by now is of no use.
-        let outdated = self.underway.as_ref().is_some_and(|run| !self.is_current(&run.subject));
+        let stale = |run: &Underway| run.left.iter().all(|&check| !self.is_current(check, run.subjects.get(check)));
+        let outdated = self.underway.as_ref().is_some_and(|run| !run.left.is_empty() && stale(run));
         if outdated {
             self.underway = None;
         }
@@ -101,7 +116,7 @@ impl Runner {
         match task::spawn("checks", work) {
             Ok(_) => {
                 let count = checks.len();
-                self.underway = Some(Underway { subject: subject(job), cancel, events, left: checks, share: 0.0, count });
+                self.underway = Some(Underway { subjects: Subjects::of(job), cancel, events, left: checks, share: 0.0, count });
             }
             Err(error) => state.tell(true, fill(state.say(CheckText::NoThread), &[&error.to_string()])),
         }
@@ -116,7 +131,8 @@ impl Runner {
                 Ok(Event::Done(result)) => {
                     run.left.retain(|check| *check != result.check);
                     run.share = 0.0;
-                    self.results.insert(result.check, (Arc::new(result), run.subject.clone()));
+                    let check = result.check;
+                    self.results.insert(check, (Arc::new(result), run.subjects.get(check).clone()));
                 }
                 Err(TryRecvError::Empty) => return news,
                 Err(TryRecvError::Disconnected) => {
@@ -132,8 +148,8 @@ impl Runner {
         }
     }
 
-    fn is_current(&self, subject: &Subject) -> bool {
-        self.current.as_ref().is_some_and(|(_, current)| current.is(subject))
+    fn is_current(&self, check: Check, subject: &Subject) -> bool {
+        self.current.as_ref().is_some_and(|(_, current)| current.get(check).is(subject))
     }
 
     /// Do any run?
@@ -155,6 +171,6 @@ impl Runner {
 
     /// What came of a check, and whether it is about what is being rendered.
     pub fn result(&self, check: Check) -> Option<(&Arc<CheckResult>, bool)> {
-        self.results.get(&check).map(|(result, subject)| (result, self.is_current(subject)))
+        self.results.get(&check).map(|(result, subject)| (result, self.is_current(check, subject)))
     }
 }

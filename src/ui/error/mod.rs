@@ -13,7 +13,7 @@ use super::compare::{self, Source};
 use super::format;
 use super::keys::{self, Action};
 use super::live::Live;
-use super::state::{Maximised, State, Tab};
+use super::state::{State, Tab};
 use super::text::{ErrorText, fill};
 use crate::engine::{Curves, Equal, Reference, TRIAL_BUDGET, Who};
 use crate::film::difference::Metric;
@@ -43,12 +43,7 @@ pub struct ErrorState {
 pub fn perform(state: &mut State, action: Action, shift: bool) {
     let error = &mut state.error;
     match action {
-        Action::Error => {
-            (state.prefs.tab, state.prefs.inspector_open, state.beside) = (Tab::Error, true, Maximised::Inspector);
-            if state.maximised != Maximised::Inspector {
-                state.maximised = Maximised::None;
-            }
-        }
+        Action::Error => state.bring(Tab::Error),
         Action::Reference if shift => state.compare.forget_reference(),
         Action::Reference if state.compare.reference == Some(Source::Reference) => error.hold = !error.hold,
         Action::Reference => {
@@ -205,7 +200,7 @@ fn warnings(ui: &mut Ui, state: &State, live: &Live, curves: &Curves) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::state::Preferences;
+    use super::super::state::{Maximised, Preferences};
     use super::*;
 
     #[test]

@@ -24,6 +24,10 @@ texts! { CheckText;
     SamplesTime: "{} samples, {} s", "{} 个样本，{} 秒";
     WhatItMeans: "What it means", "含义";
     WhereToLook: "Where to look", "排查方向";
+    WhatHelps: "What helps", "有用的做法";
+    HowMuch: "How much?", "缺多少？";
+    AboutPercent: "about {} %", "约 {} %";
+    HelpHowMuch: "Opens the checks' page and estimates what part of the light is missing, and on which kinds of paths: about 3 s, during which rendering stands still.", "打开检查页，估计缺少的光占多少、属于哪些路径：约 3 秒，期间暂停渲染。";
     Show: "Show this sample", "查看此样本";
     HelpShow: "Selects pixel {}, sample {} and strategy {}, the worst case, and shows its path.", "选中最严重的情形：像素 {}、样本 {}、策略 {}，并显示其路径。";
     SummaryPassed: "{} of {} passed", "{} / {} 项通过";
@@ -52,12 +56,14 @@ fn chinese(phrase: Phrase) -> &'static str {
         Phrase::Failed => "未通过",
         Phrase::TooFew => "样本不足",
         Phrase::DoesNotApply => "不适用",
+        Phrase::SomeIsMissing => "缺少光",
         Phrase::NameReplay => "重放",
         Phrase::NamePairwise => "策略两两比较",
         Phrase::NameFurnace => "白炉测试",
         Phrase::NameIntegrators => "BDPT = PT = LT",
         Phrase::NameFinite => "数值有限",
         Phrase::NameGpu => "CPU = GPU",
+        Phrase::NameMissing => "缺少的光",
         Phrase::AboutReplay => {
             "把每条采样到的路径仅凭其顶点，由每个可能生成它的策略重建：各策略对其概率密度和光必须一致，各自算出的权重之和必须为 1。"
         }
@@ -66,6 +72,18 @@ fn chinese(phrase: Phrase) -> &'static str {
         Phrase::AboutIntegrators => "全部策略、路径追踪与光源追踪，在后两者都能生成的路径上，在画面各处必须得到同样多的光。",
         Phrase::AboutFinite => "在任何权重下，贡献都不得为无穷、非数或负数，溅射也不得大到无法计数。",
         Phrase::AboutGpu => "两个渲染器生成相同的样本：几乎所有像素都必须相等。",
+        Phrase::AboutMissing => {
+            "有些光，所用策略无论渲染多长时间都无法得到，例如针孔相机在镜中看到的点光源。缺少多少？由全部策略共同估计；若都无法生成，则把无面积的光源略微放大。"
+        }
+        Phrase::MeasuredNothingMissing => "所用策略可生成不超过 {} 条边的每一种路径：不缺少任何光",
+        Phrase::MeasuredMissing => "约 {} % 的光（95 % 区间：{} 至 {} %），路径不超过 {} 条边：{}",
+        Phrase::MeasuredMissingBlurred => "{}；无面积的光源被放大到场景半径的 {} %，若只放大一半则为 {} %",
+        Phrase::MeasuredMissingTooRare => "所用策略都无法生成 {}，但只找到 {} 条这样的路径（共 {} 个样本）：太少，无法说明缺少多少",
+        Phrase::OnlyLongOnesMissing => "只缺少超过 {} 条边的路径，此处不作检查",
+        Phrase::LightIsMissing => "图像比场景暗：无论样本多少，所用策略都无法生成 {}。",
+        Phrase::LookMissing => {
+            "可打开光圈，命中镜头的光（t = 0）会带来全部；可使用有面积的光源，视线路径会命中它（s = 0）；也可重新启用移除的策略。"
+        }
         Phrase::MeasuredReplay => {
             "{} 条路径重建 {} 次：p 最多相差 {}，f 最多相差 {}，Σw 与 1 最多相差 {}（相对值；上限 {}，{} 条路径超出）"
         }
