@@ -10,6 +10,7 @@ mod scale;
 mod toolbar;
 
 use super::camera_bar;
+use super::checks;
 use super::compare::{self, Display, Missing, Pair, Sourced};
 pub use desk::{Desk, Replayed};
 pub use navigate::ZOOMS;
@@ -21,11 +22,13 @@ use super::mark_pick;
 use super::overlay;
 use super::projection::Projector;
 use super::state::State;
-use super::text::{Text, ViewText, fill};
+use super::text::{CheckText, Text, ViewText, fill};
 use super::theme;
 use super::widgets::surround;
+use crate::report::check::said::short;
+use crate::report::check::{Check, Verdict};
 use eframe::egui::{
-    self, Align2, Color32, CornerRadius, FontId, Label, Painter, Pos2, Rect, Response, RichText, Role, ScrollArea, Sense, Stroke,
+    self, Align2, Button, Color32, CornerRadius, FontId, Label, Painter, Pos2, Rect, Response, RichText, Role, ScrollArea, Sense, Stroke,
     StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
@@ -198,16 +201,25 @@ fn point(ui: &Ui, state: &mut State, response: &Response, [panel, image]: [Rect;
     }
 }
 
-/// What light is missing, because no strategy can bring it.
-fn lost_paths(ui: &mut Ui, state: &State, live: &Live) {
+/// What light is missing, because no strategy can bring it, and how much.
+fn lost_paths(ui: &mut Ui, state: &mut State, live: &Live) {
     if live.lost().is_empty() {
         return;
     }
+    let known = live.checks().result(Check::Missing).filter(|(_, current)| *current).map(|(result, _)| result);
+    let share = known.filter(|result| result.verdict == Verdict::LightMissing).and_then(|result| result.figure);
+    let how_much = match share {
+        Some(share) => fill(state.say(CheckText::AboutPercent), &[&short(100.0 * share)]),
+        None => state.say(CheckText::HowMuch).to_owned(),
+    };
     let words = fill(state.say(Text::LostPaths), &[&live.lost().join(", ")]);
     let help = format!("{}\n{}", state.say(Text::Letters), state.say(Text::HelpLostPaths));
     ui.horizontal(|ui| {
         let colour = ui.visuals().warn_fg_color;
         ui.label(RichText::new("⚠").color(colour)).on_hover_text(help.as_str());
+        if ui.add(Button::new(how_much).small()).on_hover_text(state.say(CheckText::HelpHowMuch)).clicked() {
+            checks::ask_what_is_missing(state, live.checks());
+        }
         let words = Label::new(RichText::new(words).color(colour));
         ui.add(if state.phone { words.wrap() } else { words.truncate() }).on_hover_text(help.as_str());
     });
