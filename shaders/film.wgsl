@@ -21,7 +21,7 @@ fn resolve_record(record: SplatRecord) {
     if record.pixel < first || record.pixel - first >= control.batch.tile_pixels {
         return;
     }
-    let id = SampleId(record.source & 0xffffu, record.source >> 16u, control.batch.pass_number, control.params.seed, control.params.sampler);
+    let id = SampleId(record.source & 0xffffu, record.source >> 16u, control.batch.sample, control.params.seed, control.params.sampler);
     let u = hashed(id, BLOCK_SPLAT + record.s).xyz;
     let slot = tables[control.params.slots + record.strategy];
     let weighted = record.value * record.mis_weight;

@@ -257,6 +257,10 @@ struct Params {
     colors: u32,
     canary: u32,
     sampler: u32,
+    light_subpaths: f32,
+    per_splat: f32,
+    _pad0: u32,
+    _pad1: u32,
     strategies: array<vec4<u32>, 18>,
 }
 
@@ -273,8 +277,8 @@ struct Batch {
     pairs: u32,
     tile_row: u32,
     tile_pixels: u32,
+    sample: u32,
     _pad0: u32,
-    _pad1: u32,
 }
 
 struct Control {

@@ -42,7 +42,8 @@ fn luminance(c: Vec3) -> f64 {
 
 #[test]
 fn a_survey_counts_the_renderers_own_samples() {
-    let job = Job { weighted_layers: true, raw_layers: true, ..job([40, 30], 4) };
+    let mut job = Job { weighted_layers: true, raw_layers: true, ..job([40, 30], 4) };
+    job.settings.light_subpaths = 2;
     let mut session = Session::new(job.clone()).unwrap();
     while session.passes() < 3 {
         session.step(Duration::from_secs(1));
@@ -62,7 +63,7 @@ fn a_survey_counts_the_renderers_own_samples() {
         }
         let outcomes = survey.outcomes(number);
         let failed: u64 = outcomes.reasons().iter().map(|(_, count)| count).sum();
-        assert_eq!(outcomes.tries, 3 * 40 * 30);
+        assert_eq!(outcomes.tries, 3 * 40 * 30 * u64::from(job.settings.tries(strategy)));
         assert_eq!(outcomes.carries + outcomes.non_finite + failed, outcomes.tries);
     }
 }
@@ -106,9 +107,14 @@ fn the_weight_is_the_weight_and_every_outcome_is_the_records() {
 /// The controls are each formula in the other's place.
 #[test]
 fn variances_are_those_of_passes_rendered_one_by_one() {
+    [1, 3].into_iter().for_each(variances_with);
+}
+
+fn variances_with(light_subpaths: u32) {
     const GROUPS: u32 = 120;
     const PASSES: u32 = 8;
-    let base = job([8, 6], 3);
+    let mut base = job([8, 6], 3);
+    base.settings.light_subpaths = light_subpaths;
     let strategies: Vec<Strategy> = plan(&base).strategies().collect();
     let pixel_count = 48.0;
     // Per strategy and group: formula − brute force, and the same of the wrong formula.
@@ -139,12 +145,12 @@ fn variances_are_those_of_passes_rendered_one_by_one() {
         let variance = differences.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.0);
         mean / (variance / n).sqrt().max(1e-300)
     };
-    let limit = Normal::standard().inverse_cdf(1.0 - 1e-3 / (2.0 * strategies.len() as f64));
+    let limit = Normal::standard().inverse_cdf(1.0 - 1e-3 / (4.0 * strategies.len() as f64));
     let mut caught = [0, 0];
     for (number, strategy) in strategies.iter().enumerate() {
         let (ours, control) = (z(&right[number]), z(&wrong[number]));
-        println!("{strategy}: z = {ours:.2}, the other formula {control:.2}");
-        assert!(ours.abs() < limit, "{strategy}: z = {ours:.2}");
+        println!("{light_subpaths}: {strategy}: z = {ours:.2}, the other formula {control:.2}");
+        assert!(ours.abs() < limit, "{light_subpaths}: {strategy}: z = {ours:.2}");
         caught[usize::from(strategy.stays_in_pixel())] += u32::from(control.abs() > limit);
     }
     assert!(caught[0] >= 1 && caught[1] >= 1, "the wrong formulas are found out: {caught:?}");

@@ -22,7 +22,7 @@ fn light_hits_lens(s: u32, lens: Vertex, opacity_last: f32) -> Contribution {
     }
     let w_e = w_e_1_on_film(lens.w_prev) * control.params.pdf_lens_area;
     join_at_lens(s - 1u, lens, opacity_last);
-    return Contribution(true, vec2<u32>(raster.at), lens.alpha * (w_e * control.params.per_pass), mis_weight(s));
+    return Contribution(true, vec2<u32>(raster.at), lens.alpha * (w_e * control.params.per_splat), mis_weight(s));
 }
 
 // What an end of the connection scatters (or emits, or gathers) along the edge, and the densities that depend on it, survival
@@ -58,7 +58,7 @@ fn evaluate(id: SampleId, s: u32, t: u32, a: Vertex, b: Vertex, opacity_a: f32, 
         unweighted = joined.connection_term * b.alpha * control.params.per_pass;
     } else {
         joined = connect(id, s, t, a, b);
-        unweighted = a.alpha * joined.connection_term * b.alpha * control.params.per_pass;
+        unweighted = a.alpha * joined.connection_term * b.alpha * select(control.params.per_pass, control.params.per_splat, t == 1u);
     }
     if !joined.some {
         return no_contribution();

@@ -47,7 +47,7 @@ fn scaled_powf(x: Scaled, beta: f32) -> f32 {
     return exp2(clamp((log2(x.mantissa) + f32(x.exponent)) * beta, -126.0, 126.0));
 }
 
-// What is summed over the ratios p_i/p_s of the active strategies i ≠ s.
+// What is summed over the ratios n_i p_i/(n_s p_s) of the active strategies i ≠ s.
 const SUM_POWERS: u32 = 0u;
 const COUNT_ALL: u32 = 1u;
 const LARGEST: u32 = 2u;
@@ -67,11 +67,16 @@ fn take_ratio(so_far: f32, ratio: Scaled, what: u32, parameter: f32) -> f32 {
     }
 }
 
+// n_{i+1}/n_i.
+fn more_tries(i: u32) -> f32 {
+    return select(1.0, control.params.light_subpaths, i + 1u == path_k);
+}
+
 fn for_each_ratio(s: u32, what: u32, start: f32, parameter: f32) -> f32 {
     var result = start;
     var ratio = Scaled(1.0, 0);
     for (var i = s; i <= path_k; i++) {
-        ratio = times_ratio(ratio, p_light[i], p_eye[i]);
+        ratio = times_ratio(ratio, p_light[i] * more_tries(i), p_eye[i]);
         if ratio.mantissa == 0.0 {
             break;
         }
@@ -81,7 +86,7 @@ fn for_each_ratio(s: u32, what: u32, start: f32, parameter: f32) -> f32 {
     }
     ratio = Scaled(1.0, 0);
     for (var i = s; i > 0u; i--) {
-        ratio = times_ratio(ratio, p_eye[i - 1u], p_light[i - 1u]);
+        ratio = times_ratio(ratio, p_eye[i - 1u], p_light[i - 1u] * more_tries(i - 1u));
         if ratio.mantissa == 0.0 {
             break;
         }
@@ -92,7 +97,7 @@ fn for_each_ratio(s: u32, what: u32, start: f32, parameter: f32) -> f32 {
     return result;
 }
 
-// Σ_{i≠s} (p_i/p_s)^β for β = 1 or 2 in plain f32; −1 as soon as a ratio leaves the range in which its square is safe.
+// Σ_{i≠s} (n_i p_i/(n_s p_s))^β for β = 1 or 2 in plain f32; −1 as soon as a ratio leaves the range in which its square is safe.
 fn plain_sum(s: u32, squared: bool) -> f32 {
     var sum = 0.0;
     var ratio = 1.0;
@@ -100,7 +105,7 @@ fn plain_sum(s: u32, squared: bool) -> f32 {
         if p_light[i] == 0.0 {
             break;
         }
-        ratio *= p_light[i] / p_eye[i];
+        ratio *= p_light[i] * more_tries(i) / p_eye[i];
         if !(ratio >= 1e-18 && ratio < 1e18) {
             return -1.0;
         }
@@ -113,7 +118,7 @@ fn plain_sum(s: u32, squared: bool) -> f32 {
         if p_eye[i - 1u] == 0.0 {
             break;
         }
-        ratio *= p_eye[i - 1u] / p_light[i - 1u];
+        ratio *= p_eye[i - 1u] / (p_light[i - 1u] * more_tries(i - 1u));
         if !(ratio >= 1e-18 && ratio < 1e18) {
             return -1.0;
         }

@@ -25,7 +25,12 @@ fn strategy_index(s: u32, t: u32) -> u32 {
 fn sample_of(pair: u32) -> SampleId {
     let row = pair / control.params.size.x;
     let pixel = vec2<u32>(pair % control.params.size.x, control.batch.first_row + row * control.batch.row_step);
-    return SampleId(pixel.x, pixel.y, control.batch.pass_number, control.params.seed, control.params.sampler);
+    return SampleId(pixel.x, pixel.y, control.batch.sample, control.params.seed, control.params.sampler);
+}
+
+// Whose numbers the eye subpath of a sample has.
+fn eye_id(id: SampleId) -> SampleId {
+    return SampleId(id.x, id.y, control.batch.pass_number, id.seed, id.sampler);
 }
 
 fn in_crop(pixel: vec2<u32>) -> bool {
@@ -55,7 +60,7 @@ fn light_side(id: SampleId, pair: u32) {
     if count < control.params.light_vertices {
         light_vertices[light_place(count, pair)].flags = 0u;
     }
-    let z0 = numbers(id, BLOCK_EYE_START).zw;
+    let z0 = numbers(eye_id(id), BLOCK_EYE_START).zw;
     for (var s = 1u; s <= min(count, control.params.max_edges); s++) {
         if !load_slot(s, 1u).runs {
             continue;
@@ -152,7 +157,8 @@ fn trace_eye(@builtin(global_invocation_id) global: vec3<u32>, @builtin(local_in
 fn eye_side(id: SampleId, pair: u32) {
     let light_count = recall_light_vertices(pair);
     let image_place = (id.y - control.batch.tile_row) * control.params.size.x + id.x;
-    let u = numbers(id, BLOCK_EYE_START);
+    let own = eye_id(id);
+    let u = numbers(own, BLOCK_EYE_START);
     let raster = vec2<f32>(inside_cell(id.x, u.x), inside_cell(id.y, u.y));
     var last = lens_vertex(sample_lens(u.zw));
     var step = eye_start(last, raster);
@@ -162,7 +168,7 @@ fn eye_side(id: SampleId, pair: u32) {
     var image = vec3<f32>(0.0);
     var count = 1u;
     while count < control.params.eye_vertices {
-        let walked = walk_step(&step, RADIANCE, id, last, count - 1u, count + 1u == control.params.eye_vertices);
+        let walked = walk_step(&step, RADIANCE, own, last, count - 1u, count + 1u == control.params.eye_vertices);
         if !walked.pushed {
             break;
         }

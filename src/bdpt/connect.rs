@@ -5,7 +5,7 @@
 //! c_{s,t} = f̄(y_{s−2}→y_{s−1}→z_{t−1}) G(y_{s−1}↔z_{t−1}) V f̄(y_{s−1}→z_{t−1}→z_{t−2})
 //!           with f̄ ≡ L_e⁽¹⁾ at y₀ and f̄ ≡ W_e⁽¹⁾ at z₀
 //! c_{s,0} = W_e⁽⁰⁾ W_e⁽¹⁾(y_{s−2}→y_{s−1})
-//! C*_{s,t} = α^L_s c_{s,t} α^E_t / n          n = evaluations of the technique per pass = number of pixels
+//! C*_{s,t} = α^L_s c_{s,t} α^E_t / n          n = evaluations of the technique per pass = number of pixels (t ≤ 1: n_i times that)
 //! ```
 
 use super::context::Context;
@@ -41,7 +41,7 @@ pub struct Contribution {
 /// The two subpaths of one sample, and room to join them in.
 #[derive(Debug, Default)]
 pub struct Sample {
-    /// Which sample.
+    /// Which sample: which light subpath.
     pub id: SampleId,
     /// y₀, y₁, …
     pub light: Subpath,
@@ -66,17 +66,19 @@ pub struct Sample {
 }
 
 impl Sample {
-    /// Walks both subpaths of a sample, each up to the given number of vertices.
+    /// Walks both subpaths of a sample, each up to the given number of vertices; of one whose light subpath meets no eye subpath,
+    /// the light subpath.
     pub fn trace<F: Shape>(&mut self, context: &Context<F>, id: SampleId, light_vertices: usize, eye_vertices: usize) {
         self.id = id;
         let last = context.light_subpath(id, light_vertices, &mut self.light, &mut self.rays_closest);
         crossing::find(context, &self.light, last, &mut self.crossings);
-        if eye_vertices > 0 {
-            self.raster = context.eye_subpath(id, eye_vertices, &mut self.eye, &mut self.rays_closest);
+        let eye_id = context.settings.eye_id(id);
+        if eye_vertices > 0 && context.settings.is_met(id) {
+            self.raster = context.eye_subpath(eye_id, eye_vertices, &mut self.eye, &mut self.rays_closest);
         } else {
             // Only splats are wanted of this sample: the lens is all they need.
             self.eye.vertices.clear();
-            let u = id.numbers(BLOCK_EYE_START);
+            let u = eye_id.numbers(BLOCK_EYE_START);
             self.eye.vertices.push(context.lens_vertex(context.view.sample_lens(pair(u, 2))));
         }
     }
@@ -112,7 +114,7 @@ impl Sample {
             return self.light_hits_lens(context, s);
         }
         if self.eye.vertices.len() < t {
-            return Err(Reason::EyeSubpathTooShort);
+            return Err(if context.settings.is_met(self.id) { Reason::EyeSubpathTooShort } else { Reason::NotMet });
         }
         if s == 0 {
             return self.eye_hits_light::<F, PATH>(context, t);
@@ -174,7 +176,7 @@ impl Sample {
             raster,
             pixel,
             connection_term: Vec3::splat(w_e),
-            contribution_unweighted: lens.alpha * (w_e * context.view.per_pass()),
+            contribution_unweighted: lens.alpha * (w_e * per_try(context, 0)),
             mis_weight: mis_weight(&self.path, s, &context.settings.heuristic),
         })
     }
@@ -196,7 +198,7 @@ impl Sample {
             raster: self.raster,
             pixel: [self.id.x, self.id.y],
             connection_term: l_e,
-            contribution_unweighted: l_e * last.alpha * context.view.per_pass(),
+            contribution_unweighted: l_e * last.alpha * per_try(context, t),
             mis_weight,
         })
     }
@@ -241,19 +243,25 @@ impl Sample {
             raster,
             pixel,
             connection_term,
-            contribution_unweighted: a.alpha * connection_term * b.alpha * context.view.per_pass(),
+            contribution_unweighted: a.alpha * connection_term * b.alpha * per_try(context, t),
             mis_weight,
         })
     }
 }
 
+/// 1/n of a strategy with t eye vertices.
+#[inline(always)]
+fn per_try<F: Shape>(context: &Context<F>, t: usize) -> f32 {
+    if t <= 1 { context.view.per_pass() / context.settings.light_subpaths as f32 } else { context.view.per_pass() }
+}
+
 /// w_{s,t} of the path that `edge` joins. With `PATH`, or where it takes more care, `path` becomes that path.
 #[inline(always)]
 fn weight<F: Shape, const PATH: bool>(context: &Context<F>, path: &mut FullPath, y: &[Vertex], z: &[Vertex], edge: &Edge) -> f32 {
-    let Settings { heuristic, strategies, .. } = context.settings;
+    let Settings { heuristic, strategies, light_subpaths, .. } = context.settings;
     if !PATH {
         let (joint, row) = (Joint::of(context, y, z, edge), strategies.row((y.len() + z.len()) as u32 - 1));
-        if let Some(weight) = joint.weight(y, z, row, context.view.has_lens(), heuristic) {
+        if let Some(weight) = joint.weight(y, z, row, context.view.has_lens(), *light_subpaths as f32, heuristic) {
             return weight;
         }
     }

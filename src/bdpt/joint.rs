@@ -52,9 +52,10 @@ impl Joint {
     }
 
     /// w_s of that path under the power or the balance heuristic with β = 1 or 2; `None` for all others, and where a ratio of
-    /// densities leaves the range in which plain f32 is safe. `row` says which strategies of its length take part.
+    /// densities leaves the range in which plain f32 is safe. `row` says which strategies of its length take part, `n` is n_i of
+    /// those with t ≤ 1.
     #[inline]
-    pub fn weight(&self, y: &[Vertex], z: &[Vertex], row: u128, lens: bool, heuristic: &Heuristic) -> Option<f32> {
+    pub fn weight(&self, y: &[Vertex], z: &[Vertex], row: u128, lens: bool, n: f32, heuristic: &Heuristic) -> Option<f32> {
         let squared = match heuristic.kind {
             HeuristicKind::Power if heuristic.beta == 2.0 => true,
             HeuristicKind::Power if heuristic.beta == 1.0 => false,
@@ -75,7 +76,7 @@ impl Joint {
             if p_light == 0.0 {
                 break;
             }
-            ratio *= p_light / z[j].pdf_fwd_area;
+            ratio *= if j == 1 { p_light * n } else { p_light } / z[j].pdf_fwd_area;
             if !SAFE.contains(&ratio) {
                 return None;
             }
@@ -92,7 +93,7 @@ impl Joint {
             if p_eye == 0.0 {
                 break;
             }
-            ratio *= p_eye / y[i].pdf_fwd_area;
+            ratio *= p_eye / if i + 2 == s + t { y[i].pdf_fwd_area * n } else { y[i].pdf_fwd_area };
             if !SAFE.contains(&ratio) {
                 return None;
             }
@@ -156,7 +157,8 @@ mod tests {
             let (kind, beta) = kinds[number % 4];
             for strategies in [StrategySet::ALL, StrategySet::where_(|x| (x.s * 7 + x.t * 3) % 5 < 3)] {
                 let heuristic = Heuristic { kind, beta, ..Heuristic::default() };
-                let settings = Settings { heuristic, strategies, max_edges: 9, ..Settings::default() };
+                let light_subpaths = 1 + number as u32 % 3;
+                let settings = Settings { heuristic, strategies, light_subpaths, max_edges: 9, ..Settings::default() };
                 let context = Context::new(&scene, &view, &settings);
                 let plan = Plan::new(&settings, Existence::of(&scene, view.has_lens()), false, false);
                 let mut sample = Sample::default();

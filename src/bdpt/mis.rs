@@ -4,8 +4,9 @@
 //! w_s = (n_s p_s)^β / Σ_i (n_i p_i)^β            p_{i+1}/p_i = p_light[i]/p_eye[i]
 //! ```
 //!
-//! With one light subpath per pixel every technique is evaluated equally often per pass (all n_i are the number of pixels),
-//! so the n_i cancel. `tests/ladder.rs` holds both forms against each other.
+//! A pass tries every technique once per pixel, but those with t ≤ 1 (strategies k and k + 1) n times, once per light subpath.
+//! n_{i+1}/n_i is thus n for i = k − 1, and 1 for all others: it goes with the density p_light[k − 1]. `tests/ladder` holds both
+//! forms against each other.
 
 use super::path::FullPath;
 use super::settings::{Heuristic, HeuristicKind};
@@ -24,13 +25,19 @@ pub fn log_densities(path: &FullPath) -> Vec<f64> {
         .collect()
 }
 
-/// w_s for s = 0…k+1 by the definition; all zero if no active strategy can make the path. `active` says which take part.
-pub fn mis_weights_by_definition(path: &FullPath, active: &[bool], heuristic: &Heuristic) -> Vec<f64> {
-    weights_of_log_densities(&log_densities(path), active, heuristic)
+/// ln n_s p_s for s = 0…k+1, from ln p_s: strategies k and k + 1 are tried `n` times.
+pub fn log_expected(mut ln_p: Vec<f64>, n: f32) -> Vec<f64> {
+    ln_p.iter_mut().rev().take(2).for_each(|ln_p| *ln_p += f64::from(n).ln());
+    ln_p
 }
 
-/// The same from ln p_s alone: whoever has the densities needs no path to weigh it otherwise.
-pub fn weights_of_log_densities(ln_p: &[f64], active: &[bool], heuristic: &Heuristic) -> Vec<f64> {
+/// w_s for s = 0…k+1 by the definition; all zero if no active strategy can make the path. `active` says which take part.
+pub fn mis_weights_by_definition(path: &FullPath, active: &[bool], heuristic: &Heuristic) -> Vec<f64> {
+    weights_of_log_expected(&log_expected(log_densities(path), path.light_subpaths), active, heuristic)
+}
+
+/// The same from ln n_s p_s alone: whoever has them needs no path to weigh it otherwise.
+pub fn weights_of_log_expected(ln_p: &[f64], active: &[bool], heuristic: &Heuristic) -> Vec<f64> {
     let largest = ln_p.iter().zip(active).filter(|(_, a)| **a).map(|(p, _)| *p).fold(f64::NEG_INFINITY, f64::max);
     if largest == f64::NEG_INFINITY {
         return vec![0.0; ln_p.len()];
@@ -114,12 +121,18 @@ impl Scaled {
     }
 }
 
-/// Calls `visit` with p_i/p_s for every active strategy i ≠ s whose density is not zero.
+/// n_{i+1}/n_i.
+#[inline(always)]
+fn more_tries(path: &FullPath, i: usize) -> f32 {
+    if i + 1 == path.k { path.light_subpaths } else { 1.0 }
+}
+
+/// Calls `visit` with n_i p_i/(n_s p_s) for every active strategy i ≠ s whose density is not zero.
 #[inline(always)]
 fn for_each_ratio(path: &FullPath, s: usize, mut visit: impl FnMut(Scaled)) {
     let mut ratio = Scaled::ONE;
     for i in s..=path.k {
-        ratio = ratio.times_ratio(path.p_light[i], path.p_eye[i]);
+        ratio = ratio.times_ratio(path.p_light[i] * more_tries(path, i), path.p_eye[i]);
         if ratio.mantissa == 0.0 {
             break;
         }
@@ -129,7 +142,7 @@ fn for_each_ratio(path: &FullPath, s: usize, mut visit: impl FnMut(Scaled)) {
     }
     ratio = Scaled::ONE;
     for i in (0..s).rev() {
-        ratio = ratio.times_ratio(path.p_eye[i], path.p_light[i]);
+        ratio = ratio.times_ratio(path.p_eye[i], path.p_light[i] * more_tries(path, i));
         if ratio.mantissa == 0.0 {
             break;
         }
@@ -139,7 +152,7 @@ fn for_each_ratio(path: &FullPath, s: usize, mut visit: impl FnMut(Scaled)) {
     }
 }
 
-/// Σ_{i≠s} (p_i/p_s)^β for β = 1 or 2 in plain f32; `None` as soon as a ratio leaves the range in which its square is safe.
+/// Σ_{i≠s} (n_i p_i/(n_s p_s))^β for β = 1 or 2 in plain f32; `None` as soon as a ratio leaves the range in which its square is safe.
 #[inline(always)]
 fn plain_sum(path: &FullPath, s: usize, squared: bool) -> Option<f32> {
     const RANGE: std::ops::Range<f32> = 1e-18..1e18;
@@ -149,7 +162,7 @@ fn plain_sum(path: &FullPath, s: usize, squared: bool) -> Option<f32> {
         if path.p_light[i] == 0.0 {
             break;
         }
-        ratio *= path.p_light[i] / path.p_eye[i];
+        ratio *= path.p_light[i] * more_tries(path, i) / path.p_eye[i];
         if !RANGE.contains(&ratio) {
             return None;
         }
@@ -162,7 +175,7 @@ fn plain_sum(path: &FullPath, s: usize, squared: bool) -> Option<f32> {
         if path.p_eye[i] == 0.0 {
             break;
         }
-        ratio *= path.p_eye[i] / path.p_light[i];
+        ratio *= path.p_eye[i] / (path.p_light[i] * more_tries(path, i));
         if !RANGE.contains(&ratio) {
             return None;
         }

@@ -31,6 +31,8 @@ pub struct Edge {
 pub struct FullPath {
     /// Number of edges.
     pub k: usize,
+    /// n_i of strategies k and k + 1, which have t ≤ 1; all others have 1.
+    pub light_subpaths: f32,
     /// Density of x_i from the light's side, i = 0…k; each in its vertex's measure.
     pub p_light: [f32; MAX_VERTICES],
     /// Density of x_i from the eye's side, i = 0…k.
@@ -47,6 +49,7 @@ impl FullPath {
     pub fn new() -> Self {
         Self {
             k: 0,
+            light_subpaths: 1.0,
             p_light: [0.0; MAX_VERTICES],
             p_eye: [0.0; MAX_VERTICES],
             samplable: [false; MAX_VERTICES + 1],
@@ -102,6 +105,7 @@ impl FullPath {
     #[inline]
     fn begin<F: Shape>(&mut self, context: &Context<F>, k: usize) {
         self.k = k;
+        self.light_subpaths = context.settings.light_subpaths as f32;
         self.samplable[..=k].fill(true);
         // A pinhole cannot be hit.
         self.samplable[k + 1] = context.view.has_lens();

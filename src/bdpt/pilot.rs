@@ -4,11 +4,11 @@
 //! efficiency of a set A          1/(V_A c_A)
 //! V_A = mean over pixels j of    Var_j / (mean_j² + ε)                    of the luminance that one pass adds
 //!       = Σ_{i∈A} E[(w_i C*_i)²] + what different strategies of one sample have in common (t ≥ 2) − mean²
-//!       w_i   = p_i^β / Σ_{j∈A} p_j^β: every sample has the densities of all strategies, so one run weighs it for every set
-//! E_i[(w_i C*_i)²] = Σ_j E_j[ω_j C*_j² w_i² p_j/p_i]     ω_j: weights of all strategies. So a path that i makes rarely, and that is
-//!       bright then, is known from the strategies that make it often: the pilot need not wait for i's outliers
+//!       w_i   = (n_i p_i)^β / Σ_{j∈A} (n_j p_j)^β: every sample has the densities of all strategies, so one run weighs it for every set
+//! n_i E_i[(w_i C*_i)²] = Σ_j E_j[ω_j C*_j² w_i² p_j/(n_i p_i)]     ω_j: weights of all strategies, each tried once. So a path that i
+//!       makes rarely, and that is bright then, is known from the strategies that make it often: the pilot need not wait for i's outliers
 //! c_A = 1 + rays + 0.15 tries   per pair of subpaths, in rays: what a connection costs that ends before its shadow ray, and what
-//!       a pair costs besides, measured with a profiler
+//!       a pair costs besides, measured with a profiler (half of it for each subpath, of which there may be several from the light)
 //! ```
 //!
 //! The pilot runs in groups; a set is only called better if it is in the mean of the groups by more than their spread explains.
@@ -37,7 +37,10 @@ const WORTH: f64 = 1.1;
 /// Seed of the pilot: another than that of any picture that starts at 0.
 const SEED: u32 = 0x9e37_79b9;
 
-/// A set of strategies in four words.
+/// Light subpaths for each eye subpath that a set with a light tracer is tried with.
+const LIGHT_SUBPATHS: [u32; 3] = [1, 3, 8];
+
+/// A set of strategies in four words, and how often those with t ≤ 1 are tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Family {
     /// (0, t): eye paths that hit a light.
@@ -48,11 +51,13 @@ pub struct Family {
     pub splats: bool,
     /// Largest (s, t) of the connections between inner vertices, s ≥ 2 and t ≥ 2; `None`: there are none.
     pub inner: Option<[u32; 2]>,
+    /// n: light subpaths for each eye subpath.
+    pub light_subpaths: u32,
 }
 
 impl Family {
     /// All strategies.
-    pub const ALL: Self = Self { hits: true, next_event: true, splats: true, inner: Some([u32::MAX; 2]) };
+    pub const ALL: Self = Self { hits: true, next_event: true, splats: true, inner: Some([u32::MAX; 2]), light_subpaths: 1 };
 
     /// Is the strategy in it?
     pub fn contains(&self, strategy: Strategy) -> bool {
@@ -62,6 +67,11 @@ impl Family {
             (1, _) => self.next_event,
             (s, t) => self.inner.is_some_and(|[s_max, t_max]| s <= s_max && t <= t_max),
         }
+    }
+
+    /// The settings with this set.
+    pub fn applied_to(&self, settings: &Settings) -> Settings {
+        Settings { strategies: self.set(), light_subpaths: self.light_subpaths, ..*settings }
     }
 
     /// The set.
@@ -87,9 +97,15 @@ impl Family {
                 }
             }
         }
-        for inner in limits {
-            for bits in (0..8).rev() {
-                all.push(Self { hits: bits & 4 != 0, next_event: bits & 2 != 0, splats: bits & 1 != 0, inner });
+        for light_subpaths in LIGHT_SUBPATHS {
+            for inner in &limits {
+                for bits in (0..8).rev() {
+                    let [hits, next_event, splats] = [4, 2, 1].map(|bit| bits & bit != 0);
+                    // More light subpaths are for the light tracer, and no better than more passes where it is all there is.
+                    if light_subpaths == 1 || (splats && (bits != 1 || inner.is_some())) {
+                        all.push(Self { hits, next_event, splats, inner: *inner, light_subpaths });
+                    }
+                }
             }
         }
         all
@@ -98,13 +114,14 @@ impl Family {
 
 impl fmt::Display for Family {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if *self == Self::ALL {
-            return f.write_str("all strategies");
+        let more = if self.light_subpaths == 1 { String::new() } else { format!("; {} light subpaths", self.light_subpaths) };
+        if self.set() == StrategySet::ALL {
+            return write!(f, "all strategies{more}");
         }
         let inner = self.inner.map(|_| format!("inner connections{}", self.limits()));
         let named = [(self.hits, "eye hits light"), (self.next_event, "next event"), (self.splats, "light tracer")];
         let words = named.into_iter().filter(|(has, _)| *has).map(|(_, name)| name.to_owned()).chain(inner);
-        f.write_str(&words.collect::<Vec<_>>().join(", "))
+        write!(f, "{}{more}", words.collect::<Vec<_>>().join(", "))
     }
 }
 
@@ -137,7 +154,7 @@ impl Judged {
 
 /// Judges all candidates that keep every kind of path, the most efficient first. `settings.strategies` is not looked at.
 pub fn judge(context: &Context, existence: Existence) -> Vec<Judged> {
-    let settings = Settings { strategies: StrategySet::ALL, seed: SEED, ..*context.settings };
+    let settings = Settings { strategies: StrategySet::ALL, seed: SEED, light_subpaths: 1, ..*context.settings };
     let context = Context { settings: &settings, ..*context };
     let plan = Plan::new(&settings, existence, false, false);
     let candidates = Family::candidates(settings.max_edges).into_iter().map(|family| Candidate::new(family, &plan));
@@ -198,13 +215,13 @@ mod tests {
     }
 
     /// Mean over the pixels of what many short renderings of a set differ by, relative as in the pilot.
-    fn rendered_variance(name: &str, strategies: StrategySet) -> f64 {
+    fn rendered_variance(name: &str, family: Family) -> f64 {
         const SEEDS: u32 = 48;
         let (scene, size) = (builtin::open(name).unwrap(), [32, 32]);
         let view = View::new(&scene, &scene.cameras[0], size);
         let mut sums = vec![[0.0; 2]; 32 * 32];
         for seed in 0..SEEDS {
-            let settings = Settings { strategies, seed, ..Settings::default() };
+            let settings = family.applied_to(&Settings { seed, ..Settings::default() });
             let context = Context::new(&scene, &view, &settings);
             let plan = Plan::new(&settings, Existence::of(&scene, view.has_lens()), false, false);
             let mut film = Film::new(size, plan.layers, splat_quantum(&context));
@@ -229,9 +246,9 @@ mod tests {
         let judged = judged("indirect", 6);
         let of = |family: Family| judged.iter().find(|x| x.family == family).unwrap().variance;
         let light_tracer = Family { hits: false, next_event: false, inner: None, ..Family::ALL };
-        let all = rendered_variance("indirect", StrategySet::ALL);
-        for family in [judged[0].family, light_tracer] {
-            let (predicted, found) = (of(family), rendered_variance("indirect", family.set()) / all);
+        let all = rendered_variance("indirect", Family::ALL);
+        for family in [judged[0].family, light_tracer, Family { light_subpaths: 8, ..Family::ALL }] {
+            let (predicted, found) = (of(family), rendered_variance("indirect", family) / all);
             println!("{family}: predicted {predicted}, found {found}");
             assert!((found / predicted).ln().abs() < 0.3, "{family}: predicted {predicted}, found {found}");
         }

@@ -10,6 +10,8 @@ pub enum Reason {
     LightSubpathTooShort,
     /// The eye subpath has fewer than t vertices.
     EyeSubpathTooShort,
+    /// t ≥ 2: the eye subpath meets another light subpath of its pass.
+    NotMet,
     /// y_{s−1} scatters into single directions only.
     LightVertexIsDirac,
     /// z_{t−1} scatters into single directions only.
@@ -44,9 +46,10 @@ pub enum Reason {
 
 impl Reason {
     /// All of them, in order: the index of one is itself as a number.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::LightSubpathTooShort,
         Self::EyeSubpathTooShort,
+        Self::NotMet,
         Self::LightVertexIsDirac,
         Self::EyeVertexIsDirac,
         Self::NotOnALight,
@@ -69,6 +72,7 @@ impl Reason {
         match self {
             Self::LightSubpathTooShort => "the light subpath ended before it had s vertices",
             Self::EyeSubpathTooShort => "the eye subpath ended before it had t vertices",
+            Self::NotMet => "the eye subpath meets the first light subpath of its pass alone",
             Self::LightVertexIsDirac => {
                 "the last light vertex is a mirror or glass: it scatters into single directions, none of them along the edge"
             }

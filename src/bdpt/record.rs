@@ -250,7 +250,7 @@ pub struct PathRecord {
     pub edits: Option<SceneEdits>,
     /// Pixel, from the top left.
     pub pixel: [u32; 2],
-    /// Sample number.
+    /// Sample number: of its light subpath.
     pub sample: u32,
     /// Seed.
     pub seed: u32,
@@ -268,6 +268,8 @@ pub struct PathRecord {
     pub heuristic: Heuristic,
     /// Is there Russian roulette?
     pub roulette: bool,
+    /// n: light subpaths for each eye subpath.
+    pub light_subpaths: u32,
     /// Do s = 1 and t = 1 draw a fresh end point?
     pub fresh_ends: bool,
     /// Raster position the eye subpath starts through.

@@ -1,9 +1,10 @@
-//! The renderer: for every pixel and pass one light and one eye subpath, and every strategy that joins them.
+//! The renderer: for every pixel and pass one eye subpath and n light subpaths, and every strategy that joins them.
 //!
 //! ```text
 //! for each pixel of the full film:
 //!     trace y₀y₁…  (always: splats land anywhere)      trace z₀z₁…  (only inside the crop window)
 //!     for each (s,t) that takes part:  film += w_{s,t} C*_{s,t}  on its own pixel, or where it lands if t ≤ 1
+//!     n − 1 times, if some t ≤ 1 takes part:  trace y₀y₁…  for each (s,t) with t ≤ 1:  film += w_{s,t} C*_{s,t}
 //! ```
 
 use super::connect::{Contribution, Sample};
@@ -28,6 +29,8 @@ pub struct Plan {
     by_t: Vec<Vec<(Strategy, Slot)>>,
     light_vertices: usize,
     eye_vertices: usize,
+    /// Light subpaths for each eye subpath: one if none of the strategies needs more.
+    light_subpaths: u32,
     /// The film's layers.
     pub layers: Layers,
 }
@@ -116,7 +119,9 @@ impl Plan {
         let eye_vertices = strategies.iter().map(|(x, _)| x.t).max().unwrap_or(0) as usize;
         let with_t = |t| strategies.iter().filter(|(x, _)| x.t as usize == t).copied().collect();
         let by_t = (0..=eye_vertices).map(with_t).collect();
-        Self { strategies, by_t, light_vertices, eye_vertices, layers }
+        let splats = strategies.iter().any(|(x, _)| !x.stays_in_pixel());
+        let light_subpaths = if splats { settings.light_subpaths } else { 1 };
+        Self { strategies, by_t, light_vertices, eye_vertices, light_subpaths, layers }
     }
 
     /// The strategies that run, in index order.
@@ -132,6 +137,11 @@ impl Plan {
     /// Most vertices that an eye subpath needs.
     pub fn eye_vertices(&self) -> usize {
         self.eye_vertices
+    }
+
+    /// Light subpaths to trace for each eye subpath: one if none of the strategies has t ≤ 1.
+    pub fn light_subpaths(&self) -> u32 {
+        self.light_subpaths
     }
 
     /// Where a strategy's image is in the film; `None` if it is not kept.
@@ -195,20 +205,36 @@ struct Target<'a, 'f> {
 
 impl Target<'_, '_> {
     fn render_row<F: Shape>(&mut self, context: &Context<F>, plan: &Plan, sample: &mut Sample, row: &mut Row) {
+        let first = self.pass.wrapping_mul(context.settings.light_subpaths);
         for x in 0..context.view.size[0] {
-            let id = context.settings.sample([x, row.y], self.pass);
             let eye_vertices = if self.crop.contains([x, row.y]) { plan.eye_vertices } else { 0 };
-            sample.trace(context, id, plan.light_vertices, eye_vertices);
-            let (n_light, n_eye) = (sample.light.vertices.len() as u32, sample.eye.vertices.len());
-            if !sample.crossings.is_empty() {
-                self.add_crossings(context, plan, sample, row);
+            for number in 0..plan.light_subpaths {
+                let id = context.settings.sample([x, row.y], first.wrapping_add(number));
+                self.add_sample(context, plan, id, eye_vertices, sample, row);
             }
-            // Strategies beyond a subpath's end contribute zero; the fresh end of (1, t) needs no light subpath.
-            for family in plan.by_t.iter().take(n_eye + 1).skip(1) {
-                for &(strategy, slot) in family.iter().take_while(|(x, _)| x.s <= n_light.max(1)) {
-                    if let Ok(contribution) = sample.evaluate_without_path(context, strategy) {
-                        self.add(strategy, slot, &contribution, id, row);
-                    }
+        }
+    }
+
+    #[inline(always)]
+    fn add_sample<F: Shape>(
+        &mut self,
+        context: &Context<F>,
+        plan: &Plan,
+        id: SampleId,
+        eye_vertices: usize,
+        sample: &mut Sample,
+        row: &mut Row,
+    ) {
+        sample.trace(context, id, plan.light_vertices, eye_vertices);
+        let (n_light, n_eye) = (sample.light.vertices.len() as u32, sample.eye.vertices.len());
+        if !sample.crossings.is_empty() {
+            self.add_crossings(context, plan, sample, row);
+        }
+        // Strategies beyond a subpath's end contribute zero; the fresh end of (1, t) needs no light subpath.
+        for family in plan.by_t.iter().take(n_eye + 1).skip(1) {
+            for &(strategy, slot) in family.iter().take_while(|(x, _)| x.s <= n_light.max(1)) {
+                if let Ok(contribution) = sample.evaluate_without_path(context, strategy) {
+                    self.add(strategy, slot, &contribution, id, row);
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! What a user may choose about the estimator. Densities never depend on the crop window.
 
-use super::strategy::StrategySet;
+use super::strategy::{Strategy, StrategySet};
 use crate::rng::{SampleId, Sampler};
 use serde::{Deserialize, Serialize};
 
@@ -53,6 +53,9 @@ impl Default for Heuristic {
     }
 }
 
+/// The largest n.
+pub const MOST_LIGHT_SUBPATHS: u32 = 16;
+
 /// The estimator's settings. The defaults are the program's, everywhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -67,6 +70,9 @@ pub struct Settings {
     pub heuristic: Heuristic,
     /// Russian roulette.
     pub roulette: bool,
+    /// n: light subpaths for each eye subpath; 1 … [`MOST_LIGHT_SUBPATHS`]. The eye subpath meets the first of them. The others
+    /// serve the strategies with t ≤ 1 alone, whose n_i they are; all others have n_i = 1.
+    pub light_subpaths: u32,
     /// The strategies that take part: the weights are shared among these alone ("remove" takes one out).
     pub strategies: StrategySet,
     /// s = 1 draws a fresh light point and t = 1 a fresh lens point for every connection; off: Veach's literal version,
@@ -82,6 +88,7 @@ impl Default for Settings {
             sampler: Sampler::default(),
             heuristic: Heuristic::default(),
             roulette: true,
+            light_subpaths: 1,
             strategies: StrategySet::ALL,
             fresh_ends: true,
         }
@@ -89,9 +96,27 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// A sample of a pixel under these settings.
+    /// A sample of a pixel under these settings. Samples are numbered by light subpath: the n of pass P are P n … P n + n − 1, and
+    /// the first of them is the one that the eye subpath meets.
     #[inline]
     pub fn sample(&self, [x, y]: [u32; 2], sample: u32) -> SampleId {
         SampleId { x, y, sample, seed: self.seed, sampler: self.sampler }
+    }
+
+    /// Does the eye subpath meet the light subpath of this sample?
+    #[inline]
+    pub fn is_met(&self, id: SampleId) -> bool {
+        self.light_subpaths == 1 || id.sample.is_multiple_of(self.light_subpaths)
+    }
+
+    /// Whose numbers the eye subpath of a sample has.
+    #[inline]
+    pub fn eye_id(&self, id: SampleId) -> SampleId {
+        SampleId { sample: id.sample / self.light_subpaths, ..id }
+    }
+
+    /// n_i: how often a pass tries a strategy in each pixel.
+    pub fn tries(&self, strategy: Strategy) -> u32 {
+        if strategy.stays_in_pixel() { 1 } else { self.light_subpaths }
     }
 }

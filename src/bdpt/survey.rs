@@ -10,7 +10,7 @@
 //! variance of what a pass adds to a pixel, unbiased:
 //!     t ≥ 2   one try per pass                          (ΣC² − (ΣC)²/P) / (P − 1)
 //!     t ≤ 1   N tries per pass, one per light subpath:  the sum of N independent splats X, most of them 0 here, has the variance
-//!             N Var X = N (ΣC² − (ΣC)²/(N P)) / (N P − 1)  ≈  ΣC²/P − mean²/N
+//!             N Var X = N (ΣC² − (ΣC)²/(N P)) / (N P − 1)  ≈  ΣC²/P − mean²/N           (n light subpaths per pixel: N n tries)
 //! ```
 //! The variance is that of one sample. Where samples are not independent (`rng::Sampler`), it comes out as σ² less their mean covariance:
 //! P/(P − 1) times too large at most, when their mean has no error left. It then is no measure of the error of the mean.
@@ -169,6 +169,7 @@ pub struct Survey {
     strategies: Vec<Strategy>,
     outcomes: Vec<Outcomes>,
     walks: [usize; 2],
+    light_subpaths: u32,
     size: [u32; 2],
     block: u32,
     /// [strategy][block]; empty if only outcomes are counted.
@@ -196,6 +197,7 @@ impl Survey {
             outcomes: vec![Outcomes::default(); strategies.len()],
             strategies,
             walks: [plan.light_vertices(), plan.eye_vertices()],
+            light_subpaths: plan.light_subpaths(),
             size,
             block,
             tallies: vec![Tally::default(); count],
@@ -209,7 +211,7 @@ impl Survey {
     /// be asked of the system again.
     pub fn renewed(mut self, plan: &Plan, size: [u32; 2]) -> Option<Self> {
         let same = self.size == size && self.walks == [plan.light_vertices(), plan.eye_vertices()];
-        if !same || !plan.strategies().eq(self.strategies.iter().copied()) {
+        if !same || self.light_subpaths != plan.light_subpaths() || !plan.strategies().eq(self.strategies.iter().copied()) {
             return None;
         }
         self.outcomes.fill(Outcomes::default());
@@ -226,8 +228,11 @@ impl Survey {
 
     /// Adds sample `pass` of every pixel of a row. The context must be that of the plan.
     pub fn add_row(&mut self, context: &Context, y: u32, pass: u32) {
+        let n = context.settings.light_subpaths;
         for x in 0..self.size[0] {
-            self.add(context, context.settings.sample([x, y], pass));
+            for number in 0..self.light_subpaths {
+                self.add(context, context.settings.sample([x, y], pass.wrapping_mul(n).wrapping_add(number)));
+            }
         }
         self.row_samples[y as usize] += 1;
         self.rows_done += 1;
@@ -237,7 +242,11 @@ impl Survey {
         let [light, eye] = self.walks;
         self.traced.trace(context, id, light, eye);
         let blocks = blocks(self.size, self.block);
+        let met = context.settings.is_met(id);
         for (number, (&strategy, outcomes)) in self.strategies.iter().zip(&mut self.outcomes).enumerate() {
+            if !met && strategy.stays_in_pixel() {
+                continue;
+            }
             let Some(contribution) = outcomes.count(self.traced.evaluate(context, strategy)) else { continue };
             let at = number * blocks + block_of(self.size, self.block, contribution.pixel);
             if let Some(tally) = self.tallies.get_mut(at) {
@@ -299,8 +308,8 @@ impl Survey {
             Mode::Weight => Quotient::number(tally.weight, f64::from(tally.carries)),
             Mode::Count => Quotient::number(f64::from(tally.carries), samples),
             Mode::Variance => {
-                let film = if splats { f64::from(self.size[0]) * f64::from(self.size[1]) } else { 1.0 };
-                // Of splats, `samples` pixels of the block had N tries each.
+                let film = if splats { f64::from(self.size[0]) * f64::from(self.size[1]) * f64::from(self.light_subpaths) } else { 1.0 };
+                // Of splats, `samples` pixels of the block had N n tries each.
                 let variance = unbiased_variance(tally, samples * film).map(|x| x * film);
                 // In a mean over several blocks, each counts as many pixels as it has.
                 variance.map_or(Quotient::default(), |x| Quotient::number(x * pixels, pixels))
@@ -333,7 +342,8 @@ pub fn pixel_outcomes(context: &Context, plan: &Plan, [x, y]: [u32; 2], samples:
     for sample in 0..samples {
         let id = context.settings.sample([x, y], sample);
         traced.trace(context, id, plan.light_vertices(), plan.eye_vertices());
-        for (strategy, outcomes) in &mut found {
+        let met = context.settings.is_met(id);
+        for (strategy, outcomes) in found.iter_mut().filter(|(strategy, _)| met || !strategy.stays_in_pixel()) {
             outcomes.count(traced.evaluate(context, *strategy));
         }
     }

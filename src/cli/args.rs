@@ -2,6 +2,7 @@
 
 use super::export::ExportArgs;
 use super::values::*;
+use crate::bdpt::settings::MOST_LIGHT_SUBPATHS;
 use crate::bdpt::{HeuristicKind, Strategy};
 use crate::engine::{Backend, Crop};
 use crate::film::tonemap::ToneMap;
@@ -251,6 +252,9 @@ pub struct EstimatorArgs {
     /// Russian roulette
     #[arg(long, value_name = "on|off", action = ArgAction::Set, value_parser = PossibleValuesParser::new(["on", "off"]).map(|word| word == "on"), default_value = "on")]
     pub roulette: bool,
+    /// Light subpaths for each eye subpath, 1 to 16: the further ones serve the strategies with t ≤ 1 alone
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_LIGHT_SUBPATHS)), allow_hyphen_values = true, default_value = "1")]
+    pub light_subpaths: u32,
 }
 
 /// The same where there may be no scene. (Of arguments that hold others, clap cannot tell by itself whether they are there.)

@@ -59,7 +59,10 @@ impl Table {
 
 fn table(record: &PathRecord) -> String {
     let PathRecord { scene, pixel: [x, y], sample, seed, sampler, size: [width, height], max_edges, raster, .. } = record;
-    let sampler = if sampler.is_independent() { String::new() } else { format!(", sampler {}", sampler.name()) };
+    let mut sampler = if sampler.is_independent() { String::new() } else { format!(", sampler {}", sampler.name()) };
+    if record.light_subpaths > 1 {
+        let _ = write!(sampler, ", {} light subpaths for each eye subpath", record.light_subpaths);
+    }
     let mut text = format!("{scene}: pixel {x},{y} of {width}×{height}, sample {sample}, seed {seed}{sampler}, K = {max_edges}; ");
     let _ = writeln!(text, "the eye subpath starts through raster {:.3},{:.3}\n", raster[0], raster[1]);
     let _ = writeln!(text, "Light subpath: {}\n{}", count(&record.light), subpath("y", &record.light));

@@ -25,11 +25,15 @@ pub fn prepare(args: &EstimatorArgs, hide: bool) -> Result<Prepared, Failure> {
         sampler: args.sampler,
         heuristic: Heuristic { kind: args.heuristic, beta: args.beta, cutoff: args.cutoff },
         roulette: args.roulette,
+        light_subpaths: args.light_subpaths,
         ..job.settings
     };
     let job = Job { settings, ..job };
     let (taking_part, shown) = match args.strategies {
-        Selection::Suggested => suggested(args, hide, &job)?,
+        Selection::Suggested => {
+            settings = suggested(args, hide, &job)?;
+            (settings.strategies, existence.active(&settings).collect())
+        }
         _ => strategies(args, hide, existence)?,
     };
     settings.strategies = taking_part;
@@ -94,8 +98,8 @@ fn lens(own: Lens, args: &ViewArgs) -> Option<Lens> {
     (lens != own).then_some(lens)
 }
 
-/// The strategies that a pilot run suggests, and the same as a list.
-fn suggested(args: &EstimatorArgs, hide: bool, job: &Job) -> Result<(StrategySet, Vec<Strategy>), Failure> {
+/// The settings with the strategies, and the light subpaths for them, that a pilot run suggests.
+fn suggested(args: &EstimatorArgs, hide: bool, job: &Job) -> Result<Settings, Failure> {
     if hide || args.integrator != "bdpt" {
         let other = if hide { "--strategies-mode hide".to_owned() } else { format!("--integrator {}", args.integrator) };
         return Err(Failure(format!(
@@ -108,8 +112,7 @@ fn suggested(args: &EstimatorArgs, hide: bool, job: &Job) -> Result<(StrategySet
         Some(best) => eprintln!("note: rendering with {}; `suggest {}` shows why", best.family, args.scene),
         None => eprintln!("note: rendering with all strategies: the pilot run found no set that is surely better"),
     }
-    let set = best.map_or(StrategySet::ALL, |best| best.family.set());
-    Ok((set, job.existence().active(&Settings { strategies: set, ..job.settings }).collect()))
+    Ok(best.map_or(job.settings, |best| best.family.applied_to(&job.settings)))
 }
 
 /// The strategies that share the weights, and those whose sum is the picture.

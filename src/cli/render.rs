@@ -231,9 +231,11 @@ impl Rendering {
         };
         let sampler = if settings.sampler.is_independent() { "" } else { " · evenly spread samples" };
         let roulette = if settings.roulette { "" } else { " · no roulette" };
+        let light =
+            if settings.light_subpaths == 1 { String::new() } else { format!(" · {} light subpaths each", settings.light_subpaths) };
         let hidden = if self.hide { " · some strategies hidden" } else { "" };
         let seeds = self.runs.as_ref().map_or(format!("seed {}", settings.seed), |runs| format!("seeds {}", runs.seeds()));
-        format!("{} · K = {} · {heuristic} · {seeds}{sampler}{roulette}{hidden}", self.extent(), settings.max_edges)
+        format!("{} · K = {} · {heuristic} · {seeds}{sampler}{roulette}{light}{hidden}", self.extent(), settings.max_edges)
     }
 
     /// Size and samples.

@@ -38,6 +38,7 @@ impl Job {
         }
         let switch = |on: bool| if on { "on" } else { "off" }.to_owned();
         say("roulette", switch(settings.roulette));
+        say("light-subpaths", settings.light_subpaths.to_string());
         say("fresh-ends", switch(settings.fresh_ends));
         let active =
             |strategies: StrategySet| -> Vec<Strategy> { self.existence().active(&Settings { strategies, ..*settings }).collect() };
@@ -108,6 +109,7 @@ mod tests {
         assert_eq!(with(&|x| x.max_edges = 5), ["max-edges"]);
         assert_eq!(with(&|x| x.roulette = false), ["roulette"]);
         assert_eq!(with(&|x| x.fresh_ends = false), ["fresh-ends"]);
+        assert_eq!(with(&|x| x.light_subpaths = 2), ["light-subpaths"]);
         assert_eq!(with(&|x| x.heuristic.beta = 3.0), ["beta"]);
         assert_eq!(with(&|x| x.heuristic.cutoff = 0.5), [""; 0], "the power heuristic has no threshold");
         let heuristic = |kind| move |x: &mut Settings| x.heuristic = Heuristic { kind, ..x.heuristic };

@@ -28,7 +28,7 @@ const LABEL: &str = "bdpt-explorer";
 /// The layers of the sums.
 const LAYERS: [&str; 2] = ["sum.hi", "sum.lo"];
 /// Settings that the first films did not name, and what they were.
-const UNNAMED: [(&str, &str); 1] = [("sampler", "hash")];
+const UNNAMED: [(&str, &str); 2] = [("sampler", "hash"), ("light-subpaths", "1")];
 /// What the names of settings begin with that say what the scene is: their values are digests.
 pub const SCENE: &str = "scene.";
 /// Values longer than this are not quoted.

@@ -126,6 +126,14 @@ shared_struct! {
         pub canary: u32,
         /// One of `SAMPLER_…`.
         pub sampler: u32,
+        /// n_i of the strategies with t ≤ 1.
+        pub light_subpaths: f32,
+        /// 1/n of these.
+        pub per_splat: f32,
+        /// Padding.
+        pub _pad0: u32,
+        /// Padding.
+        pub _pad1: u32,
         /// The strategies that take part: a bit per index.
         pub strategies: [[u32; 4]; 18],
     }
@@ -134,7 +142,7 @@ shared_struct! {
 shared_struct! {
     /// A part of a pass: every `row_step`-th row of a tile, from `first_row` on.
     pub struct Batch {
-        /// Number of the pass, and of the sample in each pixel.
+        /// Number of the pass: the eye subpath's sample in each pixel.
         pub pass_number: u32,
         /// First row.
         pub first_row: u32,
@@ -146,10 +154,10 @@ shared_struct! {
         pub tile_row: u32,
         /// Its pixels.
         pub tile_pixels: u32,
+        /// The light subpath's sample in each pixel.
+        pub sample: u32,
         /// Padding.
         pub _pad0: u32,
-        /// Padding.
-        pub _pad1: u32,
     }
 }
 
@@ -270,6 +278,10 @@ impl Params {
             colors: places.colors,
             canary: CANARY,
             sampler: settings.sampler as u32,
+            light_subpaths: settings.light_subpaths as f32,
+            per_splat: view.per_pass() / settings.light_subpaths as f32,
+            _pad0: 0,
+            _pad1: 0,
             strategies: settings.strategies.words(),
         }
     }

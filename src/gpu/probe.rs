@@ -28,6 +28,7 @@ pub struct Probe {
     /// The strategies that run; with the number of the weighted layer, if they stay in the pixel.
     strategies: Vec<(Strategy, Option<usize>)>,
     light: bool,
+    light_subpaths: u32,
 }
 
 impl Probe {
@@ -52,6 +53,7 @@ impl Probe {
             width,
             strategies: plan.strategies().map(|x| (x, layer(x))).collect(),
             light: plan.light_vertices() > 0,
+            light_subpaths: task.settings.light_subpaths,
         })
     }
 
@@ -92,14 +94,14 @@ impl Probe {
     /// Traces a row of a pass.
     fn trace(&self, row: u32, sample: u32) {
         let batch = Batch {
-            pass_number: sample,
+            pass_number: sample / self.light_subpaths,
             first_row: row,
             row_step: 1,
             pairs: self.width,
             tile_row: row,
             tile_pixels: self.width,
+            sample,
             _pad0: 0,
-            _pad1: 0,
         };
         let control = Control { batch, params: self.params };
         self.gpu.queue.write_buffer(&self.memory.control, 0, bytemuck::bytes_of(&control));
@@ -108,7 +110,8 @@ impl Probe {
         let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         if let Some(bound) = self.memory.bound.trace.first() {
             compute.set_bind_group(0, bound, &[0]);
-            for pipeline in [self.light.then_some(&self.kernels.light), Some(&self.kernels.eye)].into_iter().flatten() {
+            let met = sample.is_multiple_of(self.light_subpaths);
+            for pipeline in [self.light.then_some(&self.kernels.light), met.then_some(&self.kernels.eye)].into_iter().flatten() {
                 compute.set_pipeline(pipeline);
                 compute.dispatch_workgroups(self.width.div_ceil(WORKGROUP), 1, 1);
             }

@@ -60,6 +60,8 @@ pub struct Renderer {
 #[derive(Clone, Copy, Debug)]
 struct Runs {
     light: bool,
+    /// Light subpaths for each eye subpath.
+    light_subpaths: u32,
     eye: bool,
     splats: bool,
 }
@@ -87,6 +89,7 @@ impl Renderer {
         let memory = Memory::new(gpu, &layouts, &need, &tiles, &scene).await?;
         let runs = Runs {
             light: plan.light_vertices() > 0,
+            light_subpaths: plan.light_subpaths(),
             eye: plan.strategies().any(|x| x.stays_in_pixel()),
             splats: splats > 0 && !task.scene.lights.list.is_empty(),
         };
@@ -190,9 +193,9 @@ impl Renderer {
         while batches < wanted && self.pass < limit {
             let (tile, batch) = self.batches[self.next];
             let batch = Batch { pass_number: self.pass, ..batch };
-            // Splats go to every tile, each with its own numbers.
+            // Splats go to every tile, each with its own numbers; so does each of several light subpaths.
             let needed = 1 + if self.runs.splats && self.tiles.list().len() > 1 { self.tiles.list().len() } else { 0 };
-            if controls.len() + needed > MOST_BATCHES {
+            if controls.len() + needed * self.runs.light_subpaths as usize > MOST_BATCHES {
                 break;
             }
             self.encode(&mut encoder, tile, &batch, &mut controls);
@@ -223,8 +226,16 @@ impl Renderer {
         Ok(())
     }
 
-    /// One batch: light walks, eye walks and connections, splats.
+    /// One batch: light walks, eye walks and connections, splats. Of several light walks the last is the one that the eye walks meet.
     fn encode(&self, encoder: &mut wgpu::CommandEncoder, tile: usize, batch: &Batch, controls: &mut Vec<Batch>) {
+        let first = batch.pass_number.wrapping_mul(self.runs.light_subpaths);
+        for number in (0..self.runs.light_subpaths).rev() {
+            let batch = Batch { sample: first.wrapping_add(number), ..*batch };
+            self.encode_walks(encoder, tile, &batch, self.runs.eye && number == 0, controls);
+        }
+    }
+
+    fn encode_walks(&self, encoder: &mut wgpu::CommandEncoder, tile: usize, batch: &Batch, eye: bool, controls: &mut Vec<Batch>) {
         let offset = |controls: &[Batch]| (controls.len() as u64 * STRIDE) as u32;
         encoder.clear_buffer(&self.memory.output, 0, Some(4));
         let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
@@ -236,7 +247,7 @@ impl Renderer {
             compute.set_pipeline(&self.kernels.light);
             compute.dispatch_workgroups(groups, 1, 1);
         }
-        if self.runs.eye {
+        if eye {
             compute.set_pipeline(&self.kernels.eye);
             compute.dispatch_workgroups(groups, 1, 1);
         }

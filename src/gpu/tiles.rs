@@ -94,8 +94,8 @@ impl Tiles {
                     pairs: (count - phase).div_ceil(step) * self.size[0],
                     tile_row: first,
                     tile_pixels: self.pixels(count),
+                    sample: 0,
                     _pad0: 0,
-                    _pad1: 0,
                 };
                 (tile, batch)
             })

@@ -3,6 +3,7 @@
 use super::state::State;
 use super::text::{LooksText, Text, Words};
 use super::widgets::{finite, labelled};
+use crate::bdpt::settings::MOST_LIGHT_SUBPATHS;
 use crate::engine::Backend;
 use crate::rng::Sampler;
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
@@ -69,6 +70,11 @@ pub fn contents(ui: &mut Ui, state: &mut State) {
     ui.horizontal(|ui| {
         labelled(ui, Text::Seed.in_language(lang), Text::HelpSeed.in_language(lang), |ui| {
             ui.add(DragValue::new(&mut state.settings.seed).custom_parser(finite).speed(0.1))
+        });
+    });
+    ui.horizontal(|ui| {
+        labelled(ui, state.say(LooksText::LightSubpaths), state.say(LooksText::HelpLightSubpaths), |ui| {
+            ui.add(DragValue::new(&mut state.settings.light_subpaths).custom_parser(finite).range(1..=MOST_LIGHT_SUBPATHS).speed(0.05))
         });
     });
     ui.checkbox(&mut state.settings.roulette, Text::Roulette.in_language(lang)).on_hover_text(Text::HelpRoulette.in_language(lang));

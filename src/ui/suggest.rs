@@ -34,8 +34,8 @@ type Answer = Arc<Mutex<Option<Vec<Judged>>>>;
 
 /// What an answer is about. The pilot run has strategies and random numbers of its own.
 fn subject(job: &Job) -> Subject {
-    let Settings { strategies, sampler, seed, .. } = Settings::default();
-    Subject::of(job, Settings { strategies, sampler, seed, ..job.settings })
+    let Settings { strategies, light_subpaths, sampler, seed, .. } = Settings::default();
+    Subject::of(job, Settings { strategies, light_subpaths, sampler, seed, ..job.settings })
 }
 
 /// Shows the window while it is open.
@@ -106,13 +106,14 @@ fn table(ui: &mut Ui, state: &mut State, job: &Job, judged: &[Judged]) {
         let all = judged.iter().skip(ROWS).filter(|x| x.family == Family::ALL);
         for x in judged.iter().take(ROWS).chain(all) {
             let name = words(&x.family, state.prefs.lang);
-            let set = x.family.set();
-            let differs = job.existence().active(&Settings { strategies: set, ..job.settings }).ne(job.existence().active(&job.settings));
+            let wanted = x.family.applied_to(&job.settings);
+            let same = job.existence().active(&wanted).eq(job.existence().active(&job.settings));
+            let differs = !same || wanted.light_subpaths != job.settings.light_subpaths;
             let button = ui.add_enabled(differs, egui::Button::new(state.say(SuggestText::Use)));
             let spoken = format!("{}: {name}", state.say(SuggestText::Use));
             button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, differs, &spoken));
             if button.on_hover_text(state.say(SuggestText::HelpUse)).clicked() {
-                state.settings.strategies = set;
+                (state.settings.strategies, state.settings.light_subpaths) = (wanted.strategies, wanted.light_subpaths);
             }
             let [low, high] = [-2.0, 2.0].map(|errors| (x.ln_gain + errors * x.error).exp());
             ui.label(format!("{low:.2}–{high:.2} ×"));
@@ -126,6 +127,10 @@ fn table(ui: &mut Ui, state: &mut State, job: &Job, judged: &[Judged]) {
 
 /// A family in a person's language.
 fn words(family: &Family, lang: Lang) -> String {
+    if family.light_subpaths > 1 {
+        let [one, more] = [words(&Family { light_subpaths: 1, ..*family }, lang), family.light_subpaths.to_string()];
+        return fill(SuggestText::WithLightSubpaths.in_language(lang), &[&one, &more]);
+    }
     if *family == Family::ALL {
         return SuggestText::All.in_language(lang).to_owned();
     }

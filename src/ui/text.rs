@@ -102,6 +102,7 @@ pub fn reason_text(reason: Reason, lang: Lang) -> &'static str {
         Lang::Zh => match reason {
             Reason::LightSubpathTooShort => "光源子路径在得到 s 个顶点之前就结束了",
             Reason::EyeSubpathTooShort => "视线子路径在得到 t 个顶点之前就结束了",
+            Reason::NotMet => "视线子路径只与每轮的第一条光源子路径连接",
             Reason::LightVertexIsDirac => "光源子路径的末端是镜面或玻璃：它只向个别方向散射，不会沿连接边",
             Reason::EyeVertexIsDirac => "视线子路径的末端是镜面或玻璃：它只向个别方向散射，不会沿连接边",
             Reason::NotOnALight => "视线子路径的末端不在光源上",
@@ -126,6 +127,7 @@ pub fn reason_short(reason: Reason, lang: Lang) -> &'static str {
     let text = match reason {
         Reason::LightSubpathTooShort => Text::ShortLightTooShort,
         Reason::EyeSubpathTooShort => Text::ShortEyeTooShort,
+        Reason::NotMet => Text::ShortNotMet,
         Reason::LightVertexIsDirac => Text::ShortLightDirac,
         Reason::EyeVertexIsDirac => Text::ShortEyeDirac,
         Reason::NotOnALight => Text::ShortNotOnALight,

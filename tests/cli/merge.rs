@@ -89,7 +89,7 @@ fn a_film_shows_its_mean_and_says_what_it_is_of() {
         (&1.into(), &4.into(), &"7..8:4".into(), &"cornell".into())
     );
     let keys: Vec<&str> = said["settings"].as_object().unwrap().keys().map(String::as_str).collect();
-    let expected = "beta crop estimator fresh-ends heuristic integrator lens max-edges roulette sampler scene.cameras scene.lights scene.materials scene.shapes scene.textures shown size strategies";
+    let expected = "beta crop estimator fresh-ends heuristic integrator lens light-subpaths max-edges roulette sampler scene.cameras scene.lights scene.materials scene.shapes scene.textures shown size strategies";
     assert_eq!(keys.join(" "), expected);
     // All seeds are in the other files, too.
     succeed(folder.path(), &format!("render cornell -o film.png --seed-range 7..9 {SMALL} --pyramid p --stats s.json"));

@@ -51,8 +51,8 @@ fn the_same_seed_gives_the_same_picture() {
     let variants = [
         plain,
         Settings { roulette: false, sampler: Sampler::Sobol, heuristic: heuristic(HeuristicKind::Max, 2.0), ..plain },
-        Settings { fresh_ends: false, heuristic: heuristic(HeuristicKind::Cutoff, 2.0), ..plain },
-        Settings { sampler: Sampler::Sobol, heuristic: heuristic(HeuristicKind::Power, 1.3), max_edges: 8, ..plain },
+        Settings { fresh_ends: false, light_subpaths: 2, heuristic: heuristic(HeuristicKind::Cutoff, 2.0), ..plain },
+        Settings { sampler: Sampler::Sobol, light_subpaths: 3, heuristic: heuristic(HeuristicKind::Power, 1.3), max_edges: 8, ..plain },
         Settings {
             heuristic: heuristic(HeuristicKind::Uniform, 2.0),
             strategies: StrategySet::where_(|x| (x.s + 2 * x.t) % 3 > 0),
@@ -169,7 +169,7 @@ fn pictures(work: &Work, film: &Film) -> Vec<Vec3> {
 fn tiles_batches_and_windows_change_nothing() {
     let Some(gpu) = gpu("tiles_batches_and_windows_change_nothing") else { return };
     let scene = emitters_scenes::everything();
-    let settings = Settings { max_edges: 5, ..Settings::default() };
+    let settings = Settings { max_edges: 5, light_subpaths: 2, ..Settings::default() };
     let whole = work(Arc::clone(&scene), 64, settings);
     let expected = pictures(&whole, &whole.on_gpu(gpu, 3).0);
     assert!(expected.iter().any(|c| c.max_element() > 0.0));

@@ -79,6 +79,7 @@ impl Join {
         let too_short = [
             Reason::LightSubpathTooShort,
             Reason::EyeSubpathTooShort,
+            Reason::NotMet,
             Reason::EyeVertexAtInfinity,
             Reason::LightMissesTheLens,
             Reason::NoLight,

@@ -20,10 +20,14 @@ const WEIGHTS: &str = "fn run_row(row: u32) {
     for (var s = 0u; s <= path_k + 1u; s++) { out_u(row, 4u + s, u32(is_active(s))); }
 }";
 
+/// n_i of strategies with t ≤ 1.
+const LIGHT_SUBPATHS: u32 = 3;
+
 /// A path of random densities as `range` powers of ten apart, and the strategy that made it.
 fn path(i: usize, range: f32) -> (FullPath, usize) {
     let [a, b, ..] = random(7, i);
     let mut path = FullPath::new();
+    path.light_subpaths = LIGHT_SUBPATHS as f32;
     path.k = if i.is_multiple_of(3) { 1 + (a * 64.0) as usize } else { 1 + (a * 8.0) as usize };
     let s = (b * (path.k + 2) as f32) as usize;
     for j in 0..=path.k {
@@ -50,7 +54,7 @@ fn strategies() -> StrategySet {
 }
 
 fn weights(gpu: &Gpu, heuristic: Heuristic, range: f32, change: Option<(&str, &str)>) -> [Worst; 3] {
-    let settings = Settings { max_edges: 64, heuristic, strategies: strategies(), ..Settings::default() };
+    let settings = Settings { max_edges: 64, heuristic, strategies: strategies(), light_subpaths: LIGHT_SUBPATHS, ..Settings::default() };
     let work = Work::new(Job { settings, ..Job::new(scenes::patches()) });
     let paths: Vec<_> = (0..1500).map(|i| path(i, range)).collect();
     let mut table = Vec::new();

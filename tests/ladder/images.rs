@@ -38,7 +38,8 @@ pub fn mean_over_seeds(scene: &Arc<Scene>, settings: Settings, seeds: u32, passe
             + u32::from(settings.roulette)
             + 2 * settings.heuristic.kind as u32
             + 20 * u32::from(settings.strategies == StrategySet::ALL)
-            + 40 * u32::from(settings.strategies.contains(Strategy::new(2, 1)));
+            + 40 * u32::from(settings.strategies.contains(Strategy::new(2, 1)))
+            + 80 * (settings.light_subpaths - 1);
         moments.add(mean(&rendered(job(scene, [24, 24], Settings { seed, ..settings }), passes).image()));
     }
     moments
@@ -111,6 +112,8 @@ fn integrators_roulette_and_heuristics_keep_the_mean() {
             ("max", Settings { heuristic: heuristic(HeuristicKind::Max), ..base }),
             ("cutoff", Settings { heuristic: heuristic(HeuristicKind::Cutoff), ..base }),
             ("literal ends", Settings { fresh_ends: false, roulette: false, ..base }),
+            ("3 light subpaths", Settings { light_subpaths: 3, ..base }),
+            ("2 light subpaths, literal ends", Settings { light_subpaths: 2, fresh_ends: false, ..base }),
         ];
         if all_can {
             variants.push(("PT", Settings { strategies: StrategySet::path_tracer(), ..base }));

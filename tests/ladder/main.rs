@@ -7,6 +7,7 @@ mod emitters_scenes;
 mod hard;
 mod images;
 mod lens;
+mod light_subpaths;
 mod lights;
 mod normals;
 mod replay;

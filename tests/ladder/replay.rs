@@ -20,7 +20,8 @@ type Spoil = fn(&mut FullPath, &[Vertex], usize);
 
 /// Replays every feasible path of `samples` samples.
 fn replay_scene(scene: &Arc<Scene>, samples: u64, roulette: bool, spoil: Spoil) -> Findings {
-    let settings = Settings { max_edges: K, roulette, seed: 3, ..Settings::default() };
+    let light_subpaths = if roulette { 1 } else { 3 };
+    let settings = Settings { max_edges: K, roulette, light_subpaths, seed: 3, ..Settings::default() };
     let job = Job { size: [64, 48], settings, ..Job::new(scene.clone()) };
     let budget = Budget { samples, time: Duration::MAX };
     let control = Control { path: spoil, ..Control::default() };
@@ -47,7 +48,7 @@ fn all_scenes() -> Vec<Arc<Scene>> {
     .collect()
 }
 
-/// At least 10⁵ sampled, well-conditioned paths (and many others), with and without roulette, each rebuilt as every strategy that could make it:
+/// At least 10⁵ sampled, well-conditioned paths (and many others), with and without roulette (then with three light subpaths), each rebuilt as every strategy that could make it:
 /// densities, f and Σw agree to 10⁻⁵ (relative; for the others times their conditioning).
 #[test]
 fn paths_rebuilt_by_every_strategy_agree() {

@@ -13,6 +13,7 @@ fn random_path(n: u32, spread: f32) -> FullPath {
     let u = |block: u32| SampleId { x: n & 0xffff, y: n >> 16, sample: 0, seed: 2, ..SampleId::default() }.numbers(block);
     let mut path = FullPath::new();
     path.k = 1 + (u(0)[0] * 10.0) as usize;
+    path.light_subpaths = [1.0, 3.0, 16.0][n as usize % 3];
     let mut before = false;
     for i in 0..=path.k {
         let v = u(1 + i as u32);

@@ -40,13 +40,13 @@ from rooms import ROOMS
 
 HERE = Path(__file__).resolve().parent
 PROGRAM = HERE.parents[1] / "target/release/bdpt-explorer"
-# Who renders the reference of a room.
-REFERENCES = {"A": "mitsuba path", "B": "ours --max-edges 64", "C": "mitsuba ptracer"}
 # Seeds of references are far from those of entries.
 REFERENCE_SEED = 1000
 TRIMMED = 1e-3
 # What of ours needs the fewest samples.
 BEST = "--sampler sobol --strategies suggested"
+# Who renders the reference of a room.
+REFERENCES = {"A": "mitsuba path", "B": f"ours --max-edges 64 {BEST}", "C": "mitsuba ptracer"}
 # Samples per pixel of the run that tells how many of ours are a second.
 PILOT = 2
 COLUMNS = [

@@ -16,7 +16,7 @@ pub fn hdr([width, height]: [usize; 2], texels: &[[f32; 3]]) -> Vec<u8> {
 }
 
 /// An OpenEXR picture of layers, each a list of channels.
-fn exr(size: [usize; 2], layers: &[&[(&str, &[f32])]]) -> Vec<u8> {
+pub fn exr(size: [usize; 2], layers: &[&[(&str, &[f32])]]) -> Vec<u8> {
     let layer = |(index, channels): (usize, &&[(&str, &[f32])])| {
         let channels: SmallVec<_> =
             channels.iter().map(|(name, samples)| AnyChannel::new(*name, FlatSamples::F32(samples.to_vec()))).collect();

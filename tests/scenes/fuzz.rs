@@ -1,7 +1,8 @@
-//! Files with random changes (by `proptest`, which shrinks what fails to a few), some thousands always, many on demand:
+//! Files with random changes (by `proptest`, which shrinks what fails to a few), some thousands always, many on demand; the other readers are
+//! in `fuzz_readers`:
 //!
 //! ```text
-//! BDPT_FUZZ_SECONDS=600 cargo test --test scenes fuzz -- --ignored --nocapture
+//! BDPT_FUZZ_SECONDS=600 cargo test --release --test scenes fuzz -- --ignored --nocapture --test-threads 1
 //! ```
 
 use super::*;
@@ -12,7 +13,7 @@ use proptest::test_runner::{Config, TestRunner};
 use std::time::{Duration, Instant};
 
 /// Longest time one small file may take to load or to be refused.
-const PATIENCE: Duration = Duration::from_secs(20);
+pub const PATIENCE: Duration = Duration::from_secs(20);
 
 /// A file in which everything occurs that the loader reads.
 pub fn everything() -> Glb {
@@ -102,7 +103,7 @@ fn survives(bytes: &[u8], what: &str) {
 
 /// A change of a file.
 #[derive(Clone, Debug)]
-enum Change {
+pub enum Change {
     /// A digit of the JSON becomes another, so that it still parses and its numbers lie.
     Digit(Index, u8),
     /// A byte becomes another.
@@ -119,7 +120,7 @@ enum Change {
 
 const NUMBERS: [&str; 10] = ["0", "-1", "1e9", "65535", "4294967295", "1e39", "0.5", "7", "-1e-9", "99999999999999999999"];
 
-fn change() -> impl Strategy<Value = Change> {
+pub fn change() -> impl Strategy<Value = Change> {
     let at = any::<Index>;
     prop_oneof![
         6 => (at(), b'0'..=b'9').prop_map(|(at, digit)| Change::Digit(at, digit)),
@@ -133,7 +134,7 @@ fn change() -> impl Strategy<Value = Change> {
 
 impl Change {
     /// Changes a file whose JSON ends at `json_end`.
-    fn apply(&self, bytes: &mut Vec<u8>, json_end: usize) {
+    pub fn apply(&self, bytes: &mut Vec<u8>, json_end: usize) {
         let json_end = json_end.min(bytes.len());
         let places = |bytes: &[u8], number: bool| -> Vec<usize> {
             let starts = |i: &usize| bytes[*i].is_ascii_digit() && (!number || b":[,".contains(&bytes[i - 1]));
@@ -205,8 +206,16 @@ fn changed_files_make_errors_not_panics() {
 #[test]
 #[ignore = "as long as BDPT_FUZZ_SECONDS says"]
 fn changed_files_for_long() {
+    for_long(|seed| {
+        run(seed, 10_000);
+        10_000
+    });
+}
+
+/// Runs batches, each with a seed of its own, for as long as `BDPT_FUZZ_SECONDS` says; a batch returns how many files it had.
+pub fn for_long(batch: impl Fn(u64) -> u32) {
     let seconds = std::env::var("BDPT_FUZZ_SECONDS").ok().and_then(|text| text.parse().ok()).unwrap_or(600);
     let start = Instant::now();
-    let batches = (0..).take_while(|_| start.elapsed() < Duration::from_secs(seconds)).map(|seed| run(seed, 10_000)).count();
-    println!("{} files in {:.0?}", batches * 10_000, start.elapsed());
+    let files: u64 = (0..).take_while(|_| start.elapsed() < Duration::from_secs(seconds)).map(|seed| u64::from(batch(seed))).sum();
+    println!("{files} files in {:.0?}", start.elapsed());
 }

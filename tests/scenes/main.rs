@@ -14,6 +14,7 @@ mod environment;
 mod extensions;
 mod extras;
 mod fuzz;
+mod fuzz_readers;
 mod geometry;
 #[path = "../common/glb.rs"]
 mod glb;

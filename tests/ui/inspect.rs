@@ -49,7 +49,7 @@ fn what_if_weights_are_those_of_a_job_that_has_them() {
             for heuristic in heuristics() {
                 let other = engine::record(&job(heuristic), pixel, sample).expect("a record");
                 for (a, b) in base.strategies.iter().zip(&other.strategies).filter(|(a, _)| a.feasible) {
-                    let what_if = inspector_weights(&a.splits, &heuristic);
+                    let what_if = inspector_weights(&a.splits, 1, &heuristic);
                     for ((weight, now), then) in what_if.iter().zip(&a.splits).zip(&b.splits) {
                         assert!((weight - then.weight).abs() <= 1e-6, "{} {heuristic:?}: {weight} against {}", scene.name, then.weight);
                         compared += 1;

@@ -3,7 +3,7 @@
 use super::{EPSILON, Family, Judged, PASSES, SEED, TRY};
 use crate::bdpt::connect::Sample;
 use crate::bdpt::context::Context;
-use crate::bdpt::mis::{log_densities, weights_of_log_densities};
+use crate::bdpt::mis::{log_densities, log_expected, weights_of_log_expected};
 use crate::bdpt::path::FullPath;
 use crate::bdpt::render::Plan;
 use crate::bdpt::settings::{Heuristic, HeuristicKind};
@@ -103,7 +103,8 @@ impl Pilot<'_> {
         let total = |i: usize| {
             let own = &sums.variance[i * pixels..(i + 1) * pixels];
             let v = own.iter().zip(weights).map(|(v, w)| v * w).sum::<f64>() / (passes * pixels as f64);
-            if sums.fails[i] { [f64::INFINITY; 2] } else { [v, 1.0 + sums.cost[i] / (passes * pixels as f64)] }
+            let own = 0.5 + 0.5 * f64::from(self.families[i].family.light_subpaths);
+            if sums.fails[i] { [f64::INFINITY; 2] } else { [v, own + sums.cost[i] / (passes * pixels as f64)] }
         };
         (0..self.families.len()).map(total).collect()
     }
@@ -127,7 +128,8 @@ impl Pilot<'_> {
                 let outcome = sample.evaluate(&self.context, strategy);
                 let cost = if sample.rays_shadow > before { 1.0 } else { TRY };
                 if strategy.t > 0 {
-                    members.iter().for_each(|&i| sums.cost[i] += cost);
+                    let tries = |i: usize| if strategy.t == 1 { f64::from(self.families[i].family.light_subpaths) } else { 1.0 };
+                    members.iter().for_each(|&i| sums.cost[i] += cost * tries(i));
                 }
                 let Ok(found) = outcome else { continue };
                 let value = luminance(found.contribution_unweighted.to_array().map(f64::from));
@@ -139,7 +141,7 @@ impl Pilot<'_> {
                 let shares = Shares::of(&sample.path, &self.context.settings.heuristic, strategy);
                 let all = value * value * f64::from(found.mis_weight);
                 for (i, own) in own.iter_mut().enumerate() {
-                    let Some((weight, moment)) = shares.within(&self.families[i].set) else {
+                    let Some((weight, moment)) = shares.within(&self.families[i]) else {
                         sums.fails[i] = true;
                         continue;
                     };
@@ -166,8 +168,8 @@ impl Pilot<'_> {
             let all = (walk.vertices.len() as u32).saturating_sub(1) + u32::from(walk.end == End::Escaped);
             all.min(needed.saturating_sub(1))
         };
-        for (cost, Candidate { needs: [light, eye], .. }) in sums.cost.iter_mut().zip(&self.families) {
-            *cost += f64::from(rays(&sample.light, *light) + rays(&sample.eye, *eye));
+        for (cost, Candidate { needs: [light, eye], family, .. }) in sums.cost.iter_mut().zip(&self.families) {
+            *cost += f64::from(rays(&sample.light, *light) * family.light_subpaths + rays(&sample.eye, *eye));
         }
     }
 
@@ -195,7 +197,9 @@ struct Shares<'a> {
     /// The strategy that made the path.
     made: usize,
     ln_p: Vec<f64>,
-    /// p_i^β and p_i^2β p/p_i, p of the strategy that made the path; for the heuristics that have a β.
+    /// Of the heuristics that have one.
+    beta: Option<f64>,
+    /// p_i^β and p_i^2β p/p_i, p of the strategy that made the path; without β, none.
     powers: Vec<[f64; 2]>,
 }
 
@@ -212,26 +216,30 @@ impl<'a> Shares<'a> {
             let both = |p: &f64| [((p - largest) * beta).exp(), ((p - largest) * 2.0 * beta + ln_p[made] - p).exp()];
             ln_p.iter().map(|p| if *p == f64::NEG_INFINITY { [0.0; 2] } else { both(p) }).collect()
         };
-        Self { path, heuristic, made, powers: beta.map_or(Vec::new(), powers), ln_p }
+        Self { path, heuristic, made, beta, powers: beta.map_or(Vec::new(), powers), ln_p }
     }
 
-    /// w of the strategy that made the path in a set, 0 if it is not in it, and Σ w_i² p/p_i over the set: what the path says of
-    /// the second moments of them all. `None` if the set cannot make the path.
-    fn within(&self, set: &StrategySet) -> Option<(f64, f64)> {
-        let row = set.row(self.path.k as u32);
+    /// w of the strategy that made the path in a family, 0 if it is not in it, and Σ w_i² p/(n_i p_i) over its set: what the path says
+    /// of the second moments of them all. `None` if the set cannot make the path.
+    fn within(&self, Candidate { family, set, .. }: &Candidate) -> Option<(f64, f64)> {
+        let (row, k) = (set.row(self.path.k as u32), self.path.k);
         let member = |s: usize| row >> s & 1 == 1 && self.path.samplable[s];
-        if self.powers.is_empty() {
+        let tries = |s: usize| if s >= k { f64::from(family.light_subpaths) } else { 1.0 };
+        let Some(beta) = self.beta else {
             let active: Vec<bool> = (0..self.ln_p.len()).map(member).collect();
-            let weights = weights_of_log_densities(&self.ln_p, &active, self.heuristic);
+            let ln_np = log_expected(self.ln_p.clone(), family.light_subpaths as f32);
+            let weights = weights_of_log_expected(&ln_np, &active, self.heuristic);
             let term = |(w, p): (&f64, &f64)| if *w > 0.0 { w * w * (self.ln_p[self.made] - p).exp() } else { 0.0 };
-            let moment = weights.iter().zip(&self.ln_p).map(term).sum();
+            let moment = weights.iter().zip(&ln_np).map(term).sum();
             return (weights.iter().sum::<f64>() > 0.0).then(|| (weights[self.made], moment));
-        }
+        };
+        let often = if family.light_subpaths == 1 { 1.0 } else { f64::from(family.light_subpaths).powf(beta) };
+        let factor = |s: usize| if s >= k { often } else { 1.0 };
         let [sum, moment] = (0..self.powers.len()).filter(|&s| member(s)).fold([0.0; 2], |[a, b], s| {
             let [power, term] = self.powers[s];
-            [a + power, b + term]
+            [a + power * factor(s), b + term * factor(s) * factor(s) / tries(s)]
         });
-        let own = if member(self.made) { self.powers[self.made][0] } else { 0.0 };
+        let own = if member(self.made) { self.powers[self.made][0] * factor(self.made) } else { 0.0 };
         (sum > 0.0).then(|| (own / sum, moment / (sum * sum)))
     }
 }

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::bdpt::connect::{Contribution, Sample};
 use crate::bdpt::context::Context;
-use crate::bdpt::mis::{log_densities, mis_weights_by_definition};
+use crate::bdpt::mis::{log_densities, log_expected, mis_weights_by_definition};
 use crate::bdpt::path::FullPath;
 use crate::bdpt::reason::Reason;
 use crate::bdpt::strategy::Strategy;
@@ -44,6 +44,7 @@ pub fn record(context: &Context, pixel: [u32; 2], sample: u32) -> PathRecord {
         max_edges: settings.max_edges,
         heuristic: settings.heuristic,
         roulette: settings.roulette,
+        light_subpaths: settings.light_subpaths,
         fresh_ends: settings.fresh_ends,
         raster: traced.raster.to_array(),
         light: subpath_record(context, &traced.light),
@@ -172,6 +173,7 @@ fn strategy_record(context: &Context, sample: &mut Sample, strategy: Strategy) -
         Some(
             Reason::LightSubpathTooShort
                 | Reason::EyeSubpathTooShort
+                | Reason::NotMet
                 | Reason::EyeVertexAtInfinity
                 | Reason::LightMissesTheLens
                 | Reason::NoLight
@@ -235,15 +237,16 @@ fn before(context: &Context, v: &Vertex, direction: Vec3) -> Vec3 {
     v.position - direction * context.view.sphere.beyond(v.position)
 }
 
-/// The path joined last under every strategy that has its number of edges: C* of one is f/(n p), and n is the same for all.
+/// The path joined last under every strategy that has its number of edges: C* of one is f/(n p).
 fn splits(context: &Context, sample: &Sample, made_by: usize, unweighted: [f32; 3]) -> Vec<SplitRecord> {
     let path = &sample.path;
     let ln_p = log_densities(path);
+    let ln_np = log_expected(ln_p.clone(), path.light_subpaths);
     let weights = mis_weights_by_definition(path, &path.active, &context.settings.heuristic);
     (0..=path.k + 1)
         .map(|s| {
             let reason = split_reason(context, path, s, ln_p[s]);
-            let c = unweighted.map(|c| f64::from(c) * (ln_p[made_by] - ln_p[s]).exp());
+            let c = unweighted.map(|c| f64::from(c) * (ln_np[made_by] - ln_np[s]).exp());
             let c = Some(c).filter(|c| reason.is_none() && c.iter().all(|c| c.is_finite()));
             SplitRecord {
                 s: s as u32,

@@ -183,7 +183,7 @@ fn costs_as<F: Shape>(context: &Context<F>, strategies: &[Strategy]) -> Costs {
         for (number, sample) in (0..).zip(&mut samples) {
             // Pixels all over the film: a prime step through it.
             let at = ((u64::from(batch * BATCH + number) * 7919) % (u64::from(width) * u64::from(height))) as u32;
-            sample.trace(context, context.settings.sample([at % width, at / width], batch), light, eye);
+            sample.trace(context, context.settings.sample([at % width, at / width], batch * context.settings.light_subpaths), light, eye);
         }
         walks.push(start.elapsed().as_secs_f64());
         for ((&strategy, times), rays) in strategies.iter().zip(&mut tries).zip(&mut rays) {

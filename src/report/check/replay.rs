@@ -218,7 +218,8 @@ fn replay_path(context: &Context, x: &[Vertex], (sample, by): (&Sample, Strategy
         };
         found.splits += 1;
         (control.path)(&mut rebuilt.path, x, s);
-        let factor = (control.factor)(Strategy::new(at.s, by.edges() + 1 - at.s)).ln();
+        let strategy = Strategy::new(at.s, by.edges() + 1 - at.s);
+        let factor = ((control.factor)(strategy) * f64::from(context.settings.tries(strategy))).ln();
         above |= compare_densities(original, &rebuilt, (&ln_p, slack), at, &mut found.density);
         let weight = f64::from(mis_weight(&rebuilt.path, s, heuristic));
         above |= found.forms.see((mis_weights_by_definition(&rebuilt.path, &rebuilt.path.active, heuristic)[s] - weight).abs(), at);

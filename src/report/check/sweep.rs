@@ -52,13 +52,14 @@ pub trait Merge: Default + Send {
 
 impl Task<'_> {
     /// The job's settings with all strategies, the default weights and at most `max_edges` edges: a check is about the scene, not
-    /// about what is switched off. Its samples are independent: that is what tests of means and variances rest on.
+    /// about what is switched off. Every strategy is tried once in each of its samples, and these are independent: that is what tests of means and variances rest on.
     pub fn settings(&self, max_edges: u32) -> Settings {
         let own = self.job.settings;
         Settings {
             max_edges: own.max_edges.min(max_edges),
             sampler: Sampler::Hash,
             heuristic: Heuristic::default(),
+            light_subpaths: 1,
             strategies: StrategySet::ALL,
             ..own
         }

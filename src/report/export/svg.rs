@@ -287,6 +287,7 @@ fn short(reason: Reason) -> &'static str {
     match reason {
         Reason::LightSubpathTooShort => "light subpath too short",
         Reason::EyeSubpathTooShort => "eye subpath too short",
+        Reason::NotMet => "meets another",
         Reason::LightVertexIsDirac => "light end: mirror, glass",
         Reason::EyeVertexIsDirac => "eye end: mirror, glass",
         Reason::NotOnALight => "not on a light",

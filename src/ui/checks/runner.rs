@@ -15,10 +15,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-/// What results are about. The checks take all strategies, and weights and independent samples of their own.
+/// What results are about. The checks take all strategies, each as often, and weights and independent samples of their own.
 fn subject(job: &Job) -> Subject {
-    let Settings { heuristic, strategies, sampler, .. } = Settings::default();
-    Subject::of(job, Settings { heuristic, strategies, sampler, ..job.settings })
+    let Settings { heuristic, strategies, sampler, light_subpaths, .. } = Settings::default();
+    Subject::of(job, Settings { heuristic, strategies, sampler, light_subpaths, ..job.settings })
 }
 
 /// Checks that run.

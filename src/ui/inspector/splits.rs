@@ -54,7 +54,7 @@ pub fn show(ui: &mut Ui, state: &mut State, existence: &Existence, record: &Path
     ui.label(RichText::new(state.say(Text::SplitsIntro)).small().weak()).on_hover_text(state.say(Text::SplitsScale));
     what_if::controls(ui, state);
     quantity(ui, state);
-    let other = state.inspect.what_if.map(|heuristic| what_if::weights(&strategy.splits, &heuristic));
+    let other = state.inspect.what_if.map(|heuristic| what_if::weights(&strategy.splits, record.light_subpaths, &heuristic));
     let row = |(i, split): (usize, &'_ SplitRecord)| {
         let weight = other.as_ref().map(|weights| weights[i]);
         let bright = |weight: f64| split.contribution_unweighted.map_or(0.0, |c| weight * luminance(c));

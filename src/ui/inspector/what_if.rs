@@ -1,12 +1,12 @@
 //! What if the strategies shared this path otherwise? Any heuristic weighs the splits from their densities alone,
 //!
 //! ```text
-//! w_s = h(p_s) / Σ_i h(p_i)            contribution_s = w_s f/(n p_s)
+//! w_s = h(n_s p_s) / Σ_i h(n_i p_i)            contribution_s = w_s f/(n_s p_s)
 //! ```
 //!
 //! so nothing is traced again and the image goes on; what is liked can be applied to it.
 
-use crate::bdpt::mis::weights_of_log_densities;
+use crate::bdpt::mis::{log_expected, weights_of_log_expected};
 use crate::bdpt::record::SplitRecord;
 use crate::bdpt::{Heuristic, HeuristicKind};
 use crate::ui::state::State;
@@ -20,11 +20,11 @@ use std::ops::RangeInclusive;
 /// β on the slider; what the image may have beyond it can still be typed.
 const BETAS: RangeInclusive<f32> = 0.0..=8.0;
 
-/// The weights of a path's splits under another heuristic, by the definition.
-pub fn weights(splits: &[SplitRecord], heuristic: &Heuristic) -> Vec<f64> {
-    let ln_p: Vec<f64> = splits.iter().map(|split| split.p.map_or(f64::NEG_INFINITY, |p| p * LN_10)).collect();
+/// The weights of a path's splits under another heuristic, by the definition; with `n` light subpaths for each eye subpath.
+pub fn weights(splits: &[SplitRecord], n: u32, heuristic: &Heuristic) -> Vec<f64> {
+    let ln_p = splits.iter().map(|split| split.p.map_or(f64::NEG_INFINITY, |p| p * LN_10)).collect();
     let active: Vec<bool> = splits.iter().map(|split| split.samplable).collect();
-    weights_of_log_densities(&ln_p, &active, heuristic)
+    weights_of_log_expected(&log_expected(ln_p, n as f32), &active, heuristic)
 }
 
 /// The controls.

@@ -6,6 +6,7 @@ use super::words::{
 };
 use super::{CompareMode, Link, Shared};
 use crate::bdpt::MAX_EDGES;
+use crate::bdpt::settings::MOST_LIGHT_SUBPATHS;
 use crate::engine::Mode;
 use crate::film::difference::Metric;
 use crate::film::tonemap::ToneMap;
@@ -84,6 +85,7 @@ pub const TABLE: &[Piece] = &[
     piece!("cutoff", CUTOFF, settings.heuristic.cutoff),
     piece!("roulette", SWITCH, settings.roulette),
     piece!("fresh", SWITCH, settings.fresh_ends),
+    piece!("light", Between(1, MOST_LIGHT_SUBPATHS), settings.light_subpaths),
     piece!("use", Strategies, settings.strategies),
     piece!("hide", Strategies, hidden),
     // What is selected.

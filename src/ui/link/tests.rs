@@ -64,7 +64,7 @@ fn what_travels_is_all_that_is_on_show_and_nothing_private() {
 /// Links of version 1 that somebody may have kept.
 const KEPT: [&str; 3] = [
     "#v=1&est=3&lang=zh&scene=spots&env=0.5,0.25,0.001&turn=-12.5&cam=1&pose=0,1,2.5,1,0,0,0,1,0,0,0,-1,0.7&lens=0.03,inf&size=640x360\
-     &k=8&seed=7&sampler=sobol&weights=balance&beta=1.5&cutoff=0.2&roulette=off&fresh=off&use=pt,s2t1&hide=none,s1t2&px=256,300&n=3&strategy=s2t2\
+     &k=8&seed=7&sampler=sobol&weights=balance&beta=1.5&cutoff=0.2&roulette=off&fresh=off&light=4&use=pt,s2t1&hide=none,s1t2&px=256,300&n=3&strategy=s2t2\
      &vertex=3&ev=1.5&offset=-0.1&tone=aces&view=3,100,50.5&picture=s1t2.raw&other=image&compare=split&metric=relative&split=0.25\
      &flipped=on&draw=eye,splats&max=image&panels=inspector,camera&front=space&beside=pyramid&inspector=357&pyramid=200&space=400&tab=path\
      &sort=weight&walk=light&bars=density&whatif=power,3,0.1&cells=variance&why=on&gain=same&cell=100\
@@ -96,11 +96,12 @@ fn links_of_version_1_mean_what_they_meant() {
     assert_eq!((pose.position, pose.right, pose.up), ([0.0, 1.0, 2.5], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]));
     assert_eq!((pose.axis, pose.yfov, link.size), ([0.0, 0.0, -1.0], 0.7, [640, 360]));
     assert_eq!(link.lens, Some(Lens { radius: 0.03, focus_distance: f32::INFINITY }));
-    let Settings { max_edges, seed, sampler, heuristic, roulette, strategies, fresh_ends } = link.settings;
+    let Settings { max_edges, seed, sampler, heuristic, roulette, light_subpaths, strategies, fresh_ends } = link.settings;
     // What is older than the choice has independent numbers.
     let older = |text: &str| Link::parse(text).unwrap().0.settings.sampler;
     assert_eq!((sampler, older(KEPT[1])), (Sampler::Sobol, Sampler::Hash));
     assert_eq!((max_edges, seed, roulette, fresh_ends, heuristic.beta, heuristic.cutoff), (8, 7, false, false, 1.5, 0.2));
+    assert_eq!((light_subpaths, Link::parse(KEPT[1]).unwrap().0.settings.light_subpaths), (4, 1));
     assert_eq!(heuristic.kind, crate::bdpt::HeuristicKind::Balance);
     assert!(
         strategies.contains(Strategy::new(2, 1)) && strategies.contains(Strategy::new(0, 5)) && !strategies.contains(Strategy::new(2, 2))

@@ -17,6 +17,7 @@ texts! { SuggestText;
     Best: "Suggested: {}.", "建议：{}。";
     NoneBetter: "Suggested: all strategies. No other set is surely better by a tenth.", "建议：全部策略。没有其他集合确定地好出十分之一。";
     All: "all strategies", "全部策略";
+    WithLightSubpaths: "{}; {} light subpaths", "{}；{} 条光源子路径";
     Inner: "inner connections", "内部连接";
     NoThread: "The pilot run could not be started: {}", "无法开始试运行：{}";
 }

@@ -245,6 +245,7 @@ texts! { Text;
     SplitRemoved: "the strategy was removed", "该策略已被移除";
     ShortLightTooShort: "light subpath too short", "光源子路径太短";
     ShortEyeTooShort: "eye subpath too short", "视线子路径太短";
+    ShortNotMet: "meets another", "连接的是另一条";
     ShortLightDirac: "light end is a mirror or glass", "光源侧末端是镜面或玻璃";
     ShortEyeDirac: "eye end is a mirror or glass", "视线侧末端是镜面或玻璃";
     ShortNotOnALight: "does not end on a light", "末端不在光源上";

@@ -78,6 +78,7 @@ pub fn random_state(dice: &mut Dice, scene: &Scene) -> State {
     let mut heuristic = || Heuristic { kind: dice.of(&kinds), beta: dice.real(0.0, 16.0), cutoff: dice.real(0.0, 1.0) };
     (settings.heuristic, state.inspect.what_if) = (heuristic(), Some(heuristic()));
     (settings.roulette, settings.fresh_ends, settings.sampler) = (dice.one_in(2), dice.one_in(2), dice.of(&Sampler::ALL));
+    settings.light_subpaths = 1 + dice.below(16) as u32;
     settings.strategies = strategies(dice);
     state.hidden = strategies(dice);
     state.select_pixel(dice.below(700) as i64, dice.below(700) as i64);
