@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Does the suite notice a slip? Each mistake of slips.json is made on purpose, alone, and the tests are run until one fails.
 
-    python3 tests/mutants/run.py                        # all of them, and report.md anew; about an hour on two cores
+    python3 tests/mutants/run.py                        # all of them, and report.md anew
     python3 tests/mutants/run.py --only eta-not-squared # some; their rows in report.md are replaced
     python3 tests/mutants/run.py --check                # only: does every slip still fit its file?
 
@@ -26,23 +26,24 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 
-# What is run for a slip until a test fails: (suite, filters), what is quick and likely to notice first. A filter is a part of a
-# test's name; those that begin with "!" are left out.
-CPU_STAGES = [
+# What is run until a test fails: (suite, filters), what is quick and likely to notice first. A filter is a part of a test's name;
+# those that begin with "!" are left out.
+STAGES = [
     ("lib", ["bdpt::", "film::", "math::", "rng::", "scene::"]),
     ("ladder", ["replay::", "sampling::", "surfaces::", "weights::", "lights::", "normals::"]),
     ("hard", ["mistakes::", "weights::"]),
+    ("gpu", ["twins", "joins::", "lockstep::", "paths::"]),
     ("ladder", ["!replay::", "!sampling::", "!surfaces::", "!weights::", "!lights::", "!normals::"]),
     ("hard", ["!mistakes::", "!weights::"]),
+    ("gpu", ["!twins", "!joins::", "!lockstep::", "!paths::"]),
     ("scenes", []),
     ("check", []),
 ]
-GPU_STAGES = [("gpu", ["twins", "joins::", "lockstep::", "paths::"]), ("gpu", ["!twins", "!joins::", "!lockstep::", "!paths::"])]
 # Tests that judge no rendering, or that need a machine for themselves.
 LEFT_OUT = {"gpu": ["engine::", "raster::"], "scenes": ["fuzz::"]}
 SUITES = ["lib", "ladder", "hard", "scenes", "check", "gpu"]
 # A stage may take so many times what it takes when all is right, and a little.
-PATIENCE, GRACE = 4.0, 60.0
+PATIENCE, GRACE = 6.0, 60.0
 
 HOOK = "    pub fn push(&mut self, name: &str, text: &str) {\n"
 
@@ -51,9 +52,9 @@ def is_shader(slip):
     return slip["file"].startswith("shaders/")
 
 
-def stages_of(slip):
+def is_judged_by(slip, suite):
     """The device's side is judged by the device's tests alone; what both sides use, by all."""
-    return GPU_STAGES if is_shader(slip) or slip["file"].startswith("src/gpu/") else CPU_STAGES + GPU_STAGES
+    return suite == "gpu" or not (is_shader(slip) or slip["file"].startswith("src/gpu/"))
 
 
 def load_slips():
@@ -144,17 +145,18 @@ def build(tree, target):
 class Runner:
     def __init__(self, tree, programs, jobs):
         self.tree, self.programs = tree, programs
-        threads = str(max(1, (os.cpu_count() or 1) // jobs))
-        self.env = {**os.environ, "BDPT_REQUIRE_GPU": "1", "RUST_TEST_THREADS": threads, "RAYON_NUM_THREADS": threads, "RUST_BACKTRACE": "0"}
-        self.usual = {}
+        self.threads = max(1, (os.cpu_count() or 1) // jobs)
 
     def run(self, suite, filters, number, limit=None):
         """Runs tests until one fails. (its name, or why else the suite failed, or None if all pass; seconds)"""
         skipped = LEFT_OUT.get(suite, []) + [name[1:] for name in filters if name[0] == "!"]
         words = [word for name in skipped for word in ("--skip", name)] + [name for name in filters if name[0] != "!"]
+        env = {**os.environ, "BDPT_MUTANT": str(number), "BDPT_REQUIRE_GPU": "1", "RUST_BACKTRACE": "0"}
+        if number:
+            env |= dict.fromkeys(["RUST_TEST_THREADS", "RAYON_NUM_THREADS"], str(self.threads))
         began, late = time.monotonic(), threading.Event()
         process = subprocess.Popen(
-            [self.programs[suite], *words], cwd=self.tree, env={**self.env, "BDPT_MUTANT": str(number)},
+            [self.programs[suite], *words], cwd=self.tree, env=env,
             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, errors="replace", start_new_session=True,
         )
 
@@ -179,30 +181,13 @@ class Runner:
             failed = "(time)" if late.is_set() else f"(status {status})"
         return failed and f"{suite}::{failed}", time.monotonic() - began
 
-    def measure(self):
-        """Runs everything without a slip; how long each stage takes."""
-        for suite, filters in CPU_STAGES + GPU_STAGES:
-            failed, seconds = self.run(suite, filters, 0)
-            print(f"without a slip: {suite} {' '.join(filters)}: {failed or 'passes'}, {seconds:.0f} s", flush=True)
-            if failed:
-                sys.exit("a test fails although no slip is made")
-            self.usual[suite, tuple(filters)] = seconds
-
-    def judge(self, slip, before):
-        """What kills a slip (None: nothing does), and after how many seconds."""
-        began = time.monotonic()
-        limit = lambda suite, filters: PATIENCE * self.usual[suite, tuple(filters)] + GRACE
-        suite, _, test = (before or "").partition("::")
-        if suite in SUITES and test and not test.startswith("("):
-            most = max(limit(*stage) for stage in CPU_STAGES + GPU_STAGES if stage[0] == suite)
-            failed, _ = self.run(suite, ["--exact", test], slip["number"], most)
-            if failed:
-                return failed, time.monotonic() - began
-        for suite, filters in stages_of(slip):
-            failed, _ = self.run(suite, filters, slip["number"], limit(suite, filters))
-            if failed:
-                return failed, time.monotonic() - began
-        return None, time.monotonic() - began
+    def usual(self, suite, filters):
+        """How long these tests take without a slip. They must pass."""
+        failed, seconds = self.run(suite, filters, 0)
+        print(f"without a slip: {suite} {' '.join(filters)[:60]}: {failed or 'passes'}, {seconds:.0f} s", flush=True)
+        if failed:
+            sys.exit("a test fails although no slip is made")
+        return seconds
 
 
 ROW = re.compile(r"^\| `([\w-]+)` \|.*\| (?:`(.*)`|\*\*survives\*\*.*) \| (\d+) \|$")
@@ -226,7 +211,7 @@ def write_report(path, slips, results, usual, command):
         f"reason that stands there. {len(slips) - len(killed) - len(alive)} were not run.", "",
     ]
     if usual:
-        lines += ["Without a slip all pass: " + ", ".join(f"{suite} {seconds:.0f} s" for suite, seconds in usual) + ".", ""]
+        lines += ["Without a slip all pass: " + ", ".join(f"{suite} {seconds:.0f} s" for suite, seconds in usual.items()) + ".", ""]
     lines += ["| slip | mistake | file | killed by | s |", "|---|---|---|---|---|"]
     for slip in alive + killed:
         by, seconds = results[slip["name"]]
@@ -239,6 +224,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--only", help="names of slips, with commas between them")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="slips at a time")
+    parser.add_argument("--minutes", type=float, default=1e6, help="begin no further stage after so long; what is left counts as not run")
     parser.add_argument("-o", "--output", type=Path, default=HERE / "report.md")
     parser.add_argument("--scratch", type=Path, default=ROOT / "target" / "mutants", help="where the copy lies, and is built unless CARGO_TARGET_DIR is set")
     parser.add_argument("--fresh", action="store_true", help="do not try first what killed a slip before")
@@ -254,22 +240,44 @@ def main():
     tree = options.scratch / "tree"
     write_copy(slips, tree)
     programs = build(tree, Path(os.environ.get("CARGO_TARGET_DIR", options.scratch / "build")).resolve())
-    runner = Runner(tree, programs, options.jobs)
-    runner.measure()
-    usual = [(suite, sum(s for (name, _), s in runner.usual.items() if name == suite)) for suite in SUITES]
-    before = read_report(options.output)
-    results = {name: row for name, row in before.items() if options.only and name in {slip["name"] for slip in slips}}
+    runner, before = Runner(tree, programs, options.jobs), read_report(options.output)
+    results = {name: row for name, row in before.items() if options.only and name not in names}
     command = shlex.join(["python3", "tests/mutants/run.py", *sys.argv[1:]])
-    hint = lambda slip: None if options.fresh else before.get(slip["name"], (None, 0))[0]
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        running = {pool.submit(runner.judge, slip, hint(slip)): slip for slip in slips if slip["name"] in names}
-        for done, future in enumerate(concurrent.futures.as_completed(running), 1):
-            slip = running[future]
-            results[slip["name"]] = future.result()
-            by, seconds = future.result()
-            print(f"{done}/{len(running)} {slip['name']}: {by or 'SURVIVES'}, {seconds:.0f} s", flush=True)
-            write_report(options.output, slips, results, usual, command)
-    alive = [slip["name"] for slip in slips if slip["name"] in names and not results[slip["name"]][0] and "accepted" not in slip]
+    left, spent, usual, began = [slip for slip in slips if slip["name"] in names], {}, {}, time.monotonic()
+
+    def run_all(suite, chosen, filters_of, limit):
+        """Tries one stage on these slips; keeps what it kills."""
+        with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+            running = {pool.submit(runner.run, suite, filters_of(slip), slip["number"], limit): slip for slip in chosen}
+            for future in concurrent.futures.as_completed(running):
+                slip, (by, seconds) = running[future], future.result()
+                spent[slip["name"]] = spent.get(slip["name"], 0.0) + seconds
+                if by:
+                    left.remove(slip)
+                    results[slip["name"]] = by, spent[slip["name"]]
+                    print(f"{len(left)} left; {slip['name']}: {by}, {spent[slip['name']]:.0f} s", flush=True)
+                    write_report(options.output, slips, results, usual, command)
+
+    # What killed a slip before.
+    for suite in SUITES if not options.fresh else []:
+        hints = {slip["name"]: (before.get(slip["name"], ("", 0))[0] or "").partition("::") for slip in left}
+        hints = {name: test for name, (where, _, test) in hints.items() if where == suite and test[:1] != "("}
+        if hints:
+            seconds = runner.usual(suite, ["--exact", *sorted(set(hints.values()))])
+            run_all(suite, [slip for slip in left if slip["name"] in hints], lambda slip: ["--exact", hints[slip["name"]]], PATIENCE * seconds + GRACE)
+    for suite, filters in STAGES:
+        chosen = [slip for slip in left if is_judged_by(slip, suite)]
+        if not chosen:
+            continue
+        if time.monotonic() - began > 60.0 * options.minutes:
+            break
+        seconds = runner.usual(suite, filters)
+        usual[suite] = usual.get(suite, 0.0) + seconds
+        run_all(suite, chosen, lambda slip: filters, PATIENCE * seconds + GRACE)
+    else:
+        results.update((slip["name"], (None, spent.get(slip["name"], 0.0))) for slip in left)
+    write_report(options.output, slips, results, usual, command)
+    alive = [slip["name"] for slip in slips if slip["name"] in names and results.get(slip["name"], ("", 0))[0] is None and "accepted" not in slip]
     sys.exit(f"{len(alive)} survive: {', '.join(alive)}" if alive else 0)
 
 
