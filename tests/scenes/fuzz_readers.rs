@@ -44,7 +44,7 @@ fn environment(bytes: &[u8]) -> Result<(), String> {
 
 fn picture(bytes: &[u8]) -> Result<(), String> {
     match Picture::decode(bytes) {
-        Ok(picture) if picture.pixels.len() as u64 == picture.size.map(u64::from).iter().product() => Ok(()),
+        Ok(picture) if picture.pixels.len() as u64 == u64::from(picture.size[0]) * u64::from(picture.size[1]) => Ok(()),
         Ok(picture) => Err(format!("{:?} with {} pixels", picture.size, picture.pixels.len())),
         Err(message) => sentence(&message),
     }
