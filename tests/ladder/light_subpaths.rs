@@ -32,7 +32,7 @@ fn a_pass_is_the_sum_of_its_samples() {
     for (x, y) in (0..9).flat_map(|y| (0..12).map(move |x| (x, y))) {
         for sample in 0..2 * N {
             let record = record(&job, [x, y], sample).unwrap();
-            assert_eq!(record.eye.vertices.len() > 1, sample % N == 0);
+            assert!(record.eye.vertices.len() == 1 || sample % N == 0, "only the first light subpath is met");
             for found in record.strategies.iter().filter(|found| found.feasible) {
                 assert!(sample % N == 0 || found.t <= 1);
                 let [x, y] = if found.t <= 1 { found.raster.unwrap().map(|v| v as usize) } else { [x as usize, y as usize] };
