@@ -50,7 +50,9 @@ fn all(every: bool) -> u32 {
                     let heuristic = Heuristic { kind, beta: [2.0, 8.0, 0.5][n % 3], ..Heuristic::default() };
                     let (roulette, fresh_ends) = ((i + n) % 4 > 0, (i + j) % 3 > 0);
                     let sampler = Sampler::ALL[(i + j + n) % 2];
-                    let settings = Settings { max_edges, heuristic, strategies, roulette, fresh_ends, seed: count, sampler };
+                    let light_subpaths = 1 + n as u32 % 3;
+                    let settings =
+                        Settings { max_edges, heuristic, strategies, roulette, fresh_ends, light_subpaths, seed: count, sampler };
                     assert_eq!(wrong(scene, settings), 0, "{} {settings:?}", scene.name);
                     count += 1;
                 }
