@@ -6,9 +6,9 @@ use crate::lab::{LEVEL, job, mean, rendered};
 use crate::scenes::{self, Room};
 use crate::stats::z_limit;
 use bdpt_explorer::bdpt::context::Context;
-use bdpt_explorer::bdpt::render::splat_quantum;
-use bdpt_explorer::bdpt::{Settings, Strategy};
-use bdpt_explorer::film::{Film, Layers, SplatBatch};
+use bdpt_explorer::bdpt::render::{Plan, image_mean, render_rows, splat_quantum};
+use bdpt_explorer::bdpt::{Settings, Strategy, StrategySet};
+use bdpt_explorer::film::{Film, Layers, Rect, SplatBatch};
 use bdpt_explorer::gpu::MOST_PASSES;
 use bdpt_explorer::math::Vec3;
 use bdpt_explorer::rng::{pcg4d, unit_f32};
@@ -177,4 +177,35 @@ fn the_renderer_keeps_the_mean_over_many_samples() {
 #[ignore = "the long form"]
 fn the_renderer_keeps_the_mean_over_ten_million_samples() {
     through_the_renderer(SAMPLES);
+}
+
+/// In the middle of a pass the picture is as bright as ever: what the pass has splatted counts, and so does the part of it that is done.
+/// The controls are the picture without the pass's splats, and with the pass counted as a whole.
+#[test]
+fn a_picture_in_the_middle_of_a_pass_is_as_bright_as_ever() {
+    let job = job(&scenes::patches(), [32, 32], Settings { strategies: StrategySet::light_tracer(), max_edges: 3, ..Settings::default() });
+    let (view, crop) = (job.view(), Rect::full(job.size));
+    let context = Context::new(&job.scene, &view, &job.settings);
+    let plan = Plan::new(&job.settings, job.existence(), false, false);
+    let brightness = |film: &Film| {
+        let means = film.means();
+        (0..32 * 32).map(|pixel| f64::from(image_mean(&means, pixel).element_sum())).sum::<f64>()
+    };
+    let (rows, mut sums) = ((0..32).collect::<Vec<u32>>(), [0.0; 4]);
+    for first in (0..1000).step_by(2) {
+        let mut film = Film::new(job.size, plan.layers, splat_quantum(&context));
+        render_rows(&context, &plan, &mut film, crop, first, &rows);
+        film.fold();
+        let whole = brightness(&film);
+        render_rows(&context, &plan, &mut film, crop, first + 1, &rows[..16]);
+        assert_eq!((film.mean_samples(), film.most_samples()), (1.5, 2));
+        let half = brightness(&film);
+        let unseen: f64 = (0..32 * 32).map(|pixel| film.splat_sum(0, pixel).iter().sum::<f64>()).sum();
+        let found = [whole, half, unseen / film.mean_samples(), half * film.mean_samples() / f64::from(film.most_samples())];
+        sums.iter_mut().zip(found).for_each(|(sum, x)| *sum += x);
+    }
+    let [_, half, unseen, whole] = sums.map(|sum| sum / sums[0]);
+    println!("of a whole pass: {half:.4}; without its splats {unseen:.4}, counted as a whole {whole:.4}");
+    assert!((half - 1.0).abs() < 0.02, "{half}");
+    assert!(unseen < 0.9 && whole < 0.9, "{unseen} {whole}");
 }
