@@ -1,7 +1,8 @@
 //! The checks' page: run, watched, stopped, read, and out of date when what they were about has changed.
 
 use super::*;
-use bdpt_explorer::report::check::Check;
+use bdpt_explorer::bdpt::StrategySet;
+use bdpt_explorer::report::check::{Check, Verdict};
 use bdpt_explorer::ui::state::{Ask, Tab};
 
 fn page(scene: Arc<Scene>) -> Harness<'static, App> {
@@ -136,6 +137,51 @@ fn a_failure_says_what_it_means_and_shows_the_worst_case() {
     until(&mut window, "the change", |app| app.live().checks().result(Check::Pairwise).is_some_and(|(_, current)| !current));
     window.run_steps(2);
     assert!(window.query_all_by_role_and_label(Role::Button, "Show this sample").all(|button| button.accesskit_node().is_disabled()));
+}
+
+#[test]
+fn how_much_light_is_missing_is_a_click_away_from_where_it_is_said() {
+    let mut window = showing(Arc::new(builtin::open("point-mirror").expect("a built-in scene opens")));
+    let result =
+        |window: &Harness<'static, App>| window.state().live().checks().result(Check::Missing).map(|(x, current)| (x.clone(), current));
+    window.get_by_label_contains("No strategy in use can make L₀S⁺E");
+    window.state_mut().state_mut().maximised = bdpt_explorer::ui::state::Maximised::Image;
+    window.run_steps(2);
+    click(&mut window, Role::Button, "How much?");
+    let state = window.state().state();
+    assert_eq!((state.prefs.tab, state.maximised), (Tab::Checks, bdpt_explorer::ui::state::Maximised::None));
+    until(&mut window, "the estimate", |app| !app.live().checks().running() && app.live().checks().result(Check::Missing).is_some());
+    window.run_steps(2);
+    let (found, current) = result(&window).expect("a result");
+    assert!(current);
+    let seconds = found.seconds;
+    // On a machine that is busy, two seconds may be too few to say how much.
+    if found.verdict == Verdict::LightMissing {
+        window.get_by_role_and_label(Role::Button, "Missing light: light is missing");
+        window.get_by_label("What helps");
+        assert!(window.query_by_label_contains("The picture is darker than the scene").is_some());
+        // The share stands where the loss is told; a click shows it, and does not ask again.
+        let percent = bdpt_explorer::report::check::said::short(100.0 * found.figure.expect("a share"));
+        click(&mut window, Role::Button, &format!("about {percent} %"));
+        assert!(!window.state().live().checks().running());
+        window.state_mut().state_mut().prefs.lang = Lang::Zh;
+        window.run_steps(2);
+        window.get_by_role_and_label(Role::Button, &format!("约 {percent} %"));
+        assert!(window.query_by_label_contains("无面积的光源被放大").is_some());
+        window.state_mut().state_mut().prefs.lang = Lang::En;
+    } else {
+        assert_eq!(found.verdict, Verdict::NotEnoughSamples);
+        window.get_by_role_and_label(Role::Button, "How much?");
+    }
+    // It is about the strategies in use: other checks are not.
+    window.run_steps(2);
+    click(&mut window, Role::Button, "PT");
+    until(&mut window, "the path tracer", |app| {
+        app.live().engine().is_some_and(|engine| engine.job().settings.strategies != StrategySet::ALL)
+    });
+    window.run_steps(2);
+    assert!(result(&window).is_some_and(|(x, current)| x.seconds == seconds && !current));
+    window.get_by_role_and_label(Role::Button, "How much?");
 }
 
 #[test]
