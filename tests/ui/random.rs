@@ -2,7 +2,7 @@
 
 use super::*;
 use bdpt_explorer::rng::pcg4d;
-use bdpt_explorer::ui::text::ExportText;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Random numbers with a fixed start.
@@ -62,7 +62,23 @@ fn drag(window: &mut Harness<'static, App>, from: Pos2, to: Pos2, button: Pointe
     window.event(egui::Event::PointerButton { pos: to, button, pressed: false, modifiers });
 }
 
+/// What is saved is saved where nobody looks, whatever its name.
+fn keep_inside(window: &mut Harness<'static, App>, folder: &Path) {
+    let export = &mut window.state_mut().state_mut().export;
+    let path = Path::new(export.path.trim());
+    if !export.path.trim().is_empty() && !path.starts_with(folder) {
+        export.path = folder.join(path.file_name().unwrap_or_default()).display().to_string();
+        export.typed = true;
+    }
+}
+
+/// The names of the files in the working folder.
+fn files_here() -> BTreeSet<std::ffi::OsString> {
+    std::fs::read_dir(".").expect("the working folder").map(|entry| entry.expect("a file").file_name()).collect()
+}
+
 fn act(window: &mut Harness<'static, App>, dice: &mut Dice, folder: &Path) -> String {
+    keep_inside(window, folder);
     const WORDS: [&str; 8] = ["0", "-1", "1e39", "nan", "", "64", "0.5", "../no such file.glb"];
     let all = controls(window);
     let corner = window.ctx.content_rect().size();
@@ -73,13 +89,11 @@ fn act(window: &mut Harness<'static, App>, dice: &mut Dice, folder: &Path) -> St
             let (role, label, rect) = all[dice.below(all.len())].clone();
             click_at(window, rect.center());
             if matches!(role, Role::SpinButton | Role::TextInput) {
-                // What is saved is saved where nobody looks.
                 let word = WORDS[dice.below(WORDS.len())];
-                let own = label == ExportText::Path.in_language(Lang::En);
-                let word = if own { folder.join(word).display().to_string() } else { word.to_owned() };
                 window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-                window.event(egui::Event::Text(word.clone()));
+                window.event(egui::Event::Text(word.to_owned()));
                 window.run_steps(1);
+                keep_inside(window, folder);
                 window.key_press(Key::Enter);
                 return format!("types {word:?} into {label:?}");
             }
@@ -123,7 +137,7 @@ fn two_hundred_random_deeds_do_no_harm() {
     let mut window = cornell();
     let mut dice = Dice(0);
     let mut deeds = Vec::new();
-    let folder = tempfile::tempdir().expect("a folder");
+    let (folder, files) = (tempfile::tempdir().expect("a folder"), files_here());
     for _ in 0..200 {
         deeds.push(act(&mut window, &mut dice, folder.path()));
         window.run_steps(2);
@@ -137,6 +151,7 @@ fn two_hundred_random_deeds_do_no_harm() {
         }
         state.settings.max_edges = state.settings.max_edges.min(8);
     }
+    assert_eq!(files_here(), files, "a file where nobody asked for one, after {deeds:#?}");
     // It still does what it is asked: another pixel, another record, and the image goes on.
     window.set_size(egui::vec2(1440.0, 900.0));
     window.key_press(Key::Escape);
