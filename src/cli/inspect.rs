@@ -64,7 +64,11 @@ fn table(record: &PathRecord) -> String {
         let _ = write!(sampler, ", {} light subpaths for each eye subpath", record.light_subpaths);
     }
     let mut text = format!("{scene}: pixel {x},{y} of {width}×{height}, sample {sample}, seed {seed}{sampler}, K = {max_edges}; ");
-    let _ = writeln!(text, "the eye subpath starts through raster {:.3},{:.3}\n", raster[0], raster[1]);
+    let _ = if sample.is_multiple_of(record.light_subpaths) {
+        writeln!(text, "the eye subpath starts through raster {:.3},{:.3}\n", raster[0], raster[1])
+    } else {
+        writeln!(text, "the eye subpath meets another light subpath, that of sample {}\n", sample - sample % record.light_subpaths)
+    };
     let _ = writeln!(text, "Light subpath: {}\n{}", count(&record.light), subpath("y", &record.light));
     let _ = writeln!(text, "Eye subpath: {}\n{}", count(&record.eye), subpath("z", &record.eye));
     let _ = writeln!(text, "Strategies: the contribution is weight × unweighted, radiance in W m⁻² sr⁻¹ (r g b)\n{}", strategies(record));

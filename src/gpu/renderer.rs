@@ -66,6 +66,14 @@ struct Runs {
     splats: bool,
 }
 
+impl Runs {
+    /// Numbers of its own that a batch tells the kernels: splats go to every tile, those of each of several light subpaths anew.
+    fn controls(&self, tiles: &Tiles) -> usize {
+        let tiles = tiles.list().len();
+        (1 + if self.splats && tiles > 1 { tiles } else { 0 }) * self.light_subpaths as usize
+    }
+}
+
 impl Renderer {
     /// Uploads a task, to be rendered by kernels that fit its scene; one submission is to take about `slice`.
     ///
@@ -93,6 +101,10 @@ impl Renderer {
             eye: plan.strategies().any(|x| x.stays_in_pixel()),
             splats: splats > 0 && !task.scene.lights.list.is_empty(),
         };
+        let controls = runs.controls(&tiles) as u64;
+        if controls > MOST_BATCHES as u64 {
+            return Err(GpuError::TooLarge { what: "what a batch is told", need: controls * STRIDE, have: MOST_BATCHES as u64 * STRIDE });
+        }
         let batches = tiles.batches((FIRST_PAIRS[usize::from(gpu.is_software())] / task.view.size[0]).max(1));
         Ok(Self {
             gpu: gpu.clone(),
@@ -193,9 +205,7 @@ impl Renderer {
         while batches < wanted && self.pass < limit {
             let (tile, batch) = self.batches[self.next];
             let batch = Batch { pass_number: self.pass, ..batch };
-            // Splats go to every tile, each with its own numbers; so does each of several light subpaths.
-            let needed = 1 + if self.runs.splats && self.tiles.list().len() > 1 { self.tiles.list().len() } else { 0 };
-            if controls.len() + needed * self.runs.light_subpaths as usize > MOST_BATCHES {
+            if controls.len() + self.runs.controls(&self.tiles) > MOST_BATCHES {
                 break;
             }
             self.encode(&mut encoder, tile, &batch, &mut controls);
@@ -227,8 +237,9 @@ impl Renderer {
     }
 
     /// One batch: light walks, eye walks and connections, splats. Of several light walks the last is the one that the eye walks meet.
+    /// Samples are numbered by the settings' light subpaths, also where no strategy needs more than the first of a pass.
     fn encode(&self, encoder: &mut wgpu::CommandEncoder, tile: usize, batch: &Batch, controls: &mut Vec<Batch>) {
-        let first = batch.pass_number.wrapping_mul(self.runs.light_subpaths);
+        let first = batch.pass_number.wrapping_mul(self.params.light_subpaths as u32);
         for number in (0..self.runs.light_subpaths).rev() {
             let batch = Batch { sample: first.wrapping_add(number), ..*batch };
             self.encode_walks(encoder, tile, &batch, self.runs.eye && number == 0, controls);
