@@ -189,6 +189,7 @@ struct Vertex {
     look: Look,
 }
 
+const MOST_GEOMETRY: f32 = 1e30;
 const ON_LENS: u32 = 1u;
 const ON_LIGHT: u32 = 2u;
 const ON_SURFACE: u32 = 4u;

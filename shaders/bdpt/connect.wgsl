@@ -113,7 +113,7 @@ fn connect(id: SampleId, s: u32, t: u32, a: Vertex, b: Vertex) -> Joined {
             return joined;
         }
     }
-    if !(edge.geometry > 0.0 && is_finite(edge.geometry)) {
+    if !(edge.geometry > 0.0 && edge.geometry <= MOST_GEOMETRY) {
         return joined;
     }
     rays_shadow++;

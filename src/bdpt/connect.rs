@@ -16,7 +16,7 @@ use super::path::{Edge, FullPath};
 use super::reason::Reason;
 use super::settings::Settings;
 use super::strategy::Strategy;
-use super::vertex::{AT_INFINITY, DISCRETE, Subpath, Vertex};
+use super::vertex::{AT_INFINITY, DISCRETE, MOST_GEOMETRY, Subpath, Vertex};
 use super::visibility::visibility;
 use crate::math::{Vec2, Vec3};
 use crate::rng::{BLOCK_EYE_START, BLOCK_FRESH_LENS, BLOCK_FRESH_LIGHT, BLOCK_FRESH_PLACE, SampleId, pair};
@@ -224,7 +224,7 @@ impl Sample {
                 self.raster,
             ),
         };
-        if !(geometry > 0.0 && geometry.is_finite()) {
+        if !(geometry > 0.0 && geometry <= MOST_GEOMETRY) {
             return Err(Reason::DegenerateEdge);
         }
 

@@ -21,6 +21,9 @@ pub const AT_INFINITY: u32 = 32;
 /// The vertex is a point light: there is no cosine at it.
 pub const AT_POINT: u32 = 64;
 
+/// Most that G of a connection may be, m⁻²: ends nearer than 10⁻¹⁵ m coincide. Beyond it products with G overflow.
+pub const MOST_GEOMETRY: f32 = 1e30;
+
 shared_struct! {
     /// A vertex of a subpath. "fwd" is the direction of its own subpath, "rev" the other's.
     pub struct Vertex {

@@ -98,12 +98,17 @@ fn lens(own: Lens, args: &ViewArgs) -> Option<Lens> {
     (lens != own).then_some(lens)
 }
 
-/// The settings with the strategies, and the light subpaths for them, that a pilot run suggests.
+/// The settings with the strategies, and the number of light subpaths, that a pilot run suggests.
 fn suggested(args: &EstimatorArgs, hide: bool, job: &Job) -> Result<Settings, Failure> {
-    if hide || args.integrator != "bdpt" {
-        let other = if hide { "--strategies-mode hide".to_owned() } else { format!("--integrator {}", args.integrator) };
+    let other = match (hide, args.integrator.as_str(), args.light_subpaths) {
+        (true, ..) => Some("--strategies-mode hide".to_owned()),
+        (_, integrator, _) if integrator != "bdpt" => Some(format!("--integrator {integrator}")),
+        (.., n) if n != 1 => Some(format!("--light-subpaths {n}")),
+        _ => None,
+    };
+    if let Some(other) = other {
         return Err(Failure(format!(
-            "--strategies suggested chooses who shares the weights, so it does not go with {other}; leave one out"
+            "--strategies suggested chooses the strategies and how many light subpaths they get, so it does not go with {other}; leave one out"
         )));
     }
     job.check()?;

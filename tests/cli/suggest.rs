@@ -25,6 +25,7 @@ fn a_suggestion_does_not_go_with_another_choice() {
     for line in [
         "render cornell -o a.exr --size 8x8 --strategies suggested --integrator pt",
         "render cornell -o a.exr --size 8x8 --strategies suggested --strategies-mode hide",
+        "render cornell -o a.exr --size 8x8 --strategies suggested --light-subpaths 3",
         "suggest nowhere.glb",
         "suggest",
     ] {

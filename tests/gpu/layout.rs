@@ -80,6 +80,7 @@ fn constants() -> Vec<(&'static str, u32)> {
         ("BLOCK_ALPHA", rng::BLOCK_ALPHA),
         ("SAMPLER_HASH", rng::Sampler::Hash as u32),
         ("SAMPLER_SOBOL", rng::Sampler::Sobol as u32),
+        ("MOST_GEOMETRY", vertex::MOST_GEOMETRY.to_bits()),
         ("ON_LENS", vertex::ON_LENS),
         ("ON_LIGHT", vertex::ON_LIGHT),
         ("ON_SURFACE", vertex::ON_SURFACE),

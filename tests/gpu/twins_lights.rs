@@ -9,7 +9,7 @@ use bdpt_explorer::engine::Job;
 use bdpt_explorer::gpu::Gpu;
 use bdpt_explorer::math::{Vec2, Vec3};
 use bdpt_explorer::scene::Scene;
-use bdpt_explorer::scene::light::ENVIRONMENT as SKY;
+use bdpt_explorer::scene::light::{AREA, ENVIRONMENT as SKY};
 use std::sync::Arc;
 
 const ENVIRONMENT: &str = "fn run_row(row: u32) {
@@ -89,7 +89,15 @@ const LIGHTS: &str = "fn run_row(row: u32) {
 #[test]
 fn lights() {
     let Some(gpu) = gpu("lights") else { return };
-    let work = Work::new(Job::new(emitters_scenes::everything()));
+    lights_alike(gpu, 1.0);
+    lights_alike(gpu, 2.0);
+}
+
+/// The lights of a scene that has all kinds; its lamps shine to so many sides.
+fn lights_alike(gpu: &Gpu, sides: f32) {
+    let mut scene = (*emitters_scenes::everything()).clone();
+    scene.lights.list.iter_mut().filter(|light| light.kind == AREA).for_each(|light| light.sides = sides);
+    let work = Work::new(Job::new(Arc::new(scene)));
     let lights = &work.job.scene.lights;
     let kinds: std::collections::BTreeSet<u32> = lights.list.iter().map(|light| light.kind).collect();
     assert_eq!(kinds.len(), 5, "every kind");

@@ -95,7 +95,7 @@ fn weights_and_rows_of_strategies() {
     let Some(gpu) = gpu("weights_and_rows_of_strategies") else { return };
     let kinds = [HeuristicKind::Power, HeuristicKind::Balance, HeuristicKind::Max, HeuristicKind::Cutoff, HeuristicKind::Uniform];
     let mut list: Vec<_> = kinds.map(|kind| Heuristic { kind, ..Heuristic::default() }).to_vec();
-    list.push(Heuristic { beta: 1.5, ..Heuristic::default() });
+    list.extend([0.25, 1.0, 1.5, 3.0, 8.0].map(|beta| Heuristic { beta, ..Heuristic::default() }));
     for heuristic in list {
         // Harmless, large, and extreme ratios.
         for range in [2.0, 16.0, 60.0] {
@@ -109,6 +109,8 @@ fn weights_and_rows_of_strategies() {
         let seen = weights(gpu, Heuristic::default(), 60.0, Some(change));
         assert!(seen.iter().any(|worst| !worst.holds()), "{change:?} goes unnoticed");
     }
+    let (change, eighth) = (("log2(x.mantissa) + f32(x.exponent)", "f32(x.exponent)"), Heuristic { beta: 8.0, ..Heuristic::default() });
+    assert!(!weights(gpu, eighth, 16.0, Some(change))[0].holds(), "{change:?} goes unnoticed");
 }
 
 fn bits_of(row: &[f32]) -> Vec<u32> {

@@ -38,6 +38,32 @@ fn pictures_of_any_resolution_and_any_number_of_samples_are_equally_bright() {
     assert_eq!(unscaled as usize, scenes.len() * (WAYS.len() - 1), "splats that are not scaled would pass");
 }
 
+/// Would have caught: the further light subpaths counted as if each were the only one.
+#[test]
+fn pictures_with_any_number_of_light_subpaths_are_equally_bright() {
+    // (light subpaths for each eye subpath, passes).
+    const WAYS: [(u32, u32); 4] = [(1, 8), (2, 6), (5, 3), (16, 1)];
+    let scenes = [scenes::builtin("cornell"), emitters_scenes::everything(), surface_scenes::veils(true)];
+    let limit = z_limit(LEVEL, scenes.len() * 2 * (WAYS.len() - 1));
+    for scene in &scenes {
+        for strategies in [StrategySet::ALL, StrategySet::light_tracer()] {
+            let settings = Settings { max_edges: 4, strategies, ..Settings::default() };
+            let way = |(i, &(light_subpaths, passes)): (u32, &(u32, u32))| {
+                over_seeds(scene, [16; 2], Settings { seed: 1000 * i, light_subpaths, ..settings }, (24, passes))
+            };
+            let found: Vec<Moments> = (0..).zip(&WAYS).map(way).collect();
+            for (other, (n, _)) in found.iter().zip(WAYS).skip(1) {
+                let z = z_between(other, &found[0]);
+                println!("{}, {n} light subpaths: {:.4} against {:.4}, z = {z:.2}", scene.name, other.mean(), found[0].mean());
+                assert!(z.abs() < limit, "{} {n}: z = {z}", scene.name);
+                // Negative control: each counts as if it were the only one.
+                let wrong = (f64::from(n) * other.mean() - found[0].mean()) / (f64::from(n) * other.error()).hypot(found[0].error());
+                assert!(strategies == StrategySet::ALL || wrong > limit, "{} {n}: {wrong}", scene.name);
+            }
+        }
+    }
+}
+
 /// In a furnace every pixel has the same value, the film's borders and corners too, when light alone draws it. Would have caught:
 /// splats that count twice at the border (pbrt-v3 9adaee8), a last column and row that get none (LuxCore #237), splats in a window
 /// that are scaled by the window (pbrt-v4 #347).

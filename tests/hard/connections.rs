@@ -19,40 +19,54 @@ use std::sync::Arc;
 #[test]
 fn ends_that_coincide_connect_to_nothing_or_to_something_finite() {
     let (mut refused, mut finite, mut mistaken) = (0u32, 0u32, 0u32);
+    // The largest, weighted by the power heuristic and equally.
+    let (mut largest, equal) = ([0.0f32; 2], Heuristic { kind: HeuristicKind::Uniform, ..Heuristic::default() });
     for scene in [scenes::furnace(1.0, 0.7), surface_scenes::glossy_room(), emitters_scenes::everything(), surface_scenes::veils(true)] {
         let settings = Settings { max_edges: 4, fresh_ends: false, roulette: false, ..Settings::default() };
         let job = job(&scene, [16, 12], settings);
         let view = job.view();
         let context = Context::new(&scene, &view, &settings);
         each_sample(&job, 300, |_, traced| {
-            let (light, eye) = (traced.light.clone(), traced.eye.clone());
+            let (light, walked) = (traced.light.clone(), traced.eye.clone());
             for distance in [0.0, 1e-45, 1e-38, 1e-30, 1e-23, 1e-19, 1e-15, 1e-10, 1e-7, 1e-4] {
-                for (s, t) in [(1, 2), (1, 3), (2, 1), (2, 2), (2, 3), (3, 2)] {
+                // Where the eye's end is, and at the origin, near which there are numbers of every size.
+                let places = [(1, 2), (1, 3), (2, 1), (2, 2), (2, 3), (3, 2)].map(|(s, t)| [(s, t, false), (s, t, t > 1)]);
+                for (s, t, at_origin) in places.into_iter().flatten() {
+                    let mut eye = walked.clone();
+                    if let Some(end) = eye.vertices.get_mut(t - 1).filter(|_| at_origin) {
+                        end.position = Vec3::ZERO;
+                    }
                     let (Some(a), Some(b)) = (light.vertices.get(s - 1), eye.vertices.get(t - 1)) else { continue };
+                    let b = *b;
                     let apart = a.n_g.any_orthonormal_vector() * distance;
                     // The light's end moves to the eye's, and keeps what else it is.
                     let mut moved: Subpath = light.clone();
                     moved.vertices[s - 1].position = b.position + apart;
-                    let mut sample = Sample::of(traced.id, traced.raster, moved, eye.clone(), Vec::new());
+                    let mut sample = Sample::of(traced.id, traced.raster, moved, eye, Vec::new());
                     match sample.evaluate(&context, Strategy::new(s as u32, t as u32)) {
                         Ok(c) => {
                             let value = c.contribution_unweighted;
                             assert!(value.is_finite() && value.min_element() >= 0.0, "{} ({s},{t}) {distance:e}: {value}", scene.name);
                             assert!((0.0..=1.0 + 1e-5).contains(&c.mis_weight), "{} ({s},{t}) {distance:e}: {}", scene.name, c.mis_weight);
+                            let evenly = mis_weight(&sample.path, s, &equal);
+                            largest = [largest[0].max(value.x * c.mis_weight), largest[1].max(value.x * evenly)];
                             finite += 1;
                         }
                         Err(Reason::DegenerateEdge) => refused += 1,
                         Err(_) => {}
                     }
                     // Negative control: without the guard there are numbers that are none.
-                    let (_, g) = sample.light.vertices[s - 1].edge_to(b);
+                    let (_, g) = sample.light.vertices[s - 1].edge_to(&b);
                     mistaken += u32::from(!g.is_finite());
                 }
             }
         });
     }
     println!("{finite} connected, {refused} refused; without the guard {mistaken} would have had no finite G");
+    println!("the largest: {:e} by the power heuristic, {:e} by equal weights", largest[0], largest[1]);
     assert!(finite > 500 && refused > 1000 && mistaken > 1000);
+    // Negative control: without weights nearly nothing is between a connection and 1/r².
+    assert!(largest[0] < 100.0 && largest[1] > 1e15, "{largest:?}");
 }
 
 /// A floor of `size` under a bright sky and a lamp, seen from just above it, along it.
@@ -79,6 +93,20 @@ fn grazing_directions_are_not_left_out() {
     for (height, mistake) in cases {
         let job = job(&floor_seen_from(height), [16, 12], Settings { max_edges: 2, ..Settings::default() });
         compare(&job, 150_000, mistake).holds(&format!("seen from {height} m"));
+    }
+    // And what they would refuse is there to be refused: light of the floor that meets the lens along the floor.
+    for least in [1e-4f32, 1e-5, 1e-6] {
+        let (mut joined, mut kept) = (0, 0);
+        let job = job(&floor_seen_from(0.5 * f64::from(least)), [16, 12], Settings { max_edges: 2, ..Settings::default() });
+        each_sample(&job, 20_000, |context, sample| {
+            let x = Strategy::new(2, 1);
+            if sample.evaluate(context, x).is_ok() {
+                joined += 1;
+                kept += u32::from(refuse(least, sample, x, 1.0) > 0.0);
+            }
+        });
+        println!("cosines below {least:e}: {} of {joined} connections", joined - kept);
+        assert!(joined - kept > 100, "{least:e}: {joined} {kept}");
     }
 }
 

@@ -111,13 +111,14 @@ fn walls_that_lie_twice_in_one_place_are_one_wall() {
 /// normal for what is emitted and not for what is hit (pbrt-v3 #229).
 #[test]
 fn mirrored_lamps_shine_to_the_side_on_which_they_are_hit() {
-    let scene = |scale: [f64; 3]| {
+    let scene = |scale: [f64; 3], normals: Option<Vec<[f32; 3]>>| {
         let mut glb = Glb::new("mirrored");
         let (white, lamp) = (glb.material(lambert("white", [0.6; 3])), glb.material(emitter("lamp", [0.0; 3], [1.0; 3], 3.0)));
         glb.object("floor", &Shape::quad([[-2.0, -1.0, 2.0], [2.0, -1.0, 2.0], [2.0, -1.0, -2.0], [-2.0, -1.0, -2.0]]), white);
         glb.object("wall", &Shape::quad([[-2.0, -1.0, -2.0], [2.0, -1.0, -2.0], [2.0, 3.0, -2.0], [-2.0, 3.0, -2.0]]), white);
         // It faces the camera, and is its own mirror image but for its front.
-        let node = glb.object("lamp", &Shape::quad([[-0.5, -0.5, 0.0], [0.5, -0.5, 0.0], [0.5, 0.5, 0.0], [-0.5, 0.5, 0.0]]), lamp);
+        let square = Shape::quad([[-0.5, -0.5, 0.0], [0.5, -0.5, 0.0], [0.5, 0.5, 0.0], [-0.5, 0.5, 0.0]]);
+        let node = glb.object("lamp", &Shape { normals, ..square }, lamp);
         glb.json["nodes"][node]["scale"] = json!(scale);
         glb.camera("camera", [0.0, 0.2, 3.0], [0.0, -5.0], 0.9);
         Arc::new(gltf::load_bytes("mirrored.glb", &glb.bytes(), &Overrides::default()).unwrap())
@@ -126,8 +127,10 @@ fn mirrored_lamps_shine_to_the_side_on_which_they_are_hit() {
     let mut brightness = Vec::new();
     // Mirrored along x and y it looks at the camera as before, along z it looks away.
     let scales = [[1.0, 1.0, 1.0], [-1.0, 1.0, 1.0], [1.0, -1.0, 1.0], [-1.0, -1.0, -1.0], [1.0, 1.0, -1.0]];
-    for (scale, faces) in scales.map(|scale| (scale, scale[2] > 0.0)) {
-        let scene = scene(scale);
+    // With normals of its own, that lean a little, too.
+    let leaning = || Some([-0.2, 0.2, 0.1, -0.1].map(|x| [x, 0.5 * x, 0.97]).to_vec());
+    for (scale, normals) in scales.iter().flat_map(|&scale| [(scale, None), (scale, leaning())]) {
+        let (faces, scene) = (scale[2] > 0.0, scene(scale, normals));
         // The mistake: what is hit faces the other way than what emits.
         let compared = compare(&job(&scene, [24, 24], settings), 80_000, |_, _, x, value| if x.s == 0 { 0.0 } else { value });
         match faces {
@@ -137,9 +140,9 @@ fn mirrored_lamps_shine_to_the_side_on_which_they_are_hit() {
         assert!(compared.pairs >= 2);
         brightness.push(over_seeds(&scene, [24, 24], Settings { max_edges: 1, ..settings }, (12, 8)));
     }
-    for (seen, scale) in brightness.iter().zip(scales) {
+    for (seen, scale) in brightness.iter().zip(scales.iter().flat_map(|scale| [scale, scale])) {
         assert!(if scale[2] > 0.0 {
-            z_between(seen, &brightness[0]).abs() < z_limit(LEVEL, 3) && seen.mean() > 0.1
+            z_between(seen, &brightness[0]).abs() < z_limit(LEVEL, 6) && seen.mean() > 0.1
         } else {
             seen.mean() == 0.0
         });
@@ -183,5 +186,5 @@ fn no_connection_passes_closed_glass() {
     assert!(z_between(&reference, &all).abs() < limit && blocked > 1000);
     assert!(z_between(&reference, &leaking).abs() > limit, "the mistake goes unnoticed");
     let compared = compare(&job(&scene, [16, 16], settings), 60_000, NONE);
-    assert!(compared.right.0 < compared.limit, "{compared:?}");
+    assert!(compared.pairs > 0 && compared.right.0 < compared.limit, "{compared:?}");
 }

@@ -4,6 +4,7 @@ use crate::lab::{LEVEL, each_sample, job};
 use crate::scenes;
 use crate::stats::z_limit;
 use bdpt_explorer::bdpt::{Settings, Subpath};
+use bdpt_explorer::rng::Sampler;
 
 /// What is looked at of a walk: the place of its second and third vertex.
 type Traits = [f64; 6];
@@ -37,24 +38,26 @@ fn correlation(rows: &[(Traits, Traits)]) -> f64 {
 #[test]
 fn light_and_eye_walks_are_uncorrelated() {
     let scene = scenes::furnace(1.0, 0.7);
-    let walks = |seed: u32| {
+    let walks = |seed: u32, sampler: Sampler| {
         let mut walks: Vec<Walks> = Vec::new();
-        let settings = Settings { max_edges: 3, roulette: false, seed, ..Settings::default() };
+        let settings = Settings { max_edges: 3, roulette: false, seed, sampler, ..Settings::default() };
         each_sample(&job(&scene, [64, 64], settings), 40_000, |_, sample| walks.push((traits(&sample.light), traits(&sample.eye))));
         walks
     };
-    let limit = z_limit(LEVEL, 2 * 36);
-    let (own, other) = (walks(1), walks(2));
+    let limit = z_limit(LEVEL, 2 * 2 * 36);
     let pairs =
         |of: &[Walks], with: &[Walks]| -> Vec<(Traits, Traits)> { of.iter().zip(with).filter_map(|(a, b)| Some((a.0?, b.1?))).collect() };
-    // Of one sample, and of samples of the same place under neighbouring seeds.
-    for (rows, what) in [(pairs(&own, &own), "one sample"), (pairs(&own, &other), "two seeds")] {
-        let found = correlation(&rows);
-        println!("{what}: {} pairs of walks, largest r√n {found:.2} of {limit:.2}", rows.len());
-        assert!(rows.len() > 30_000 && found < limit, "{what}: {found}");
+    for sampler in Sampler::ALL {
+        let (own, other) = (walks(1, sampler), walks(2, sampler));
+        // Of one sample, and of samples of the same place under neighbouring seeds.
+        for (rows, what) in [(pairs(&own, &own), "one sample"), (pairs(&own, &other), "two seeds")] {
+            let found = correlation(&rows);
+            println!("{sampler:?}, {what}: {} pairs of walks, largest r√n {found:.2} of {limit:.2}", rows.len());
+            assert!(rows.len() > 30_000 && found < limit, "{sampler:?}, {what}: {found}");
+        }
+        // Negative control: the light walk's numbers reach the eye's in one sample of twenty.
+        let mut mixed = pairs(&own, &own);
+        mixed.iter_mut().step_by(20).for_each(|(light, eye)| *eye = *light);
+        assert!(correlation(&mixed) > limit, "{}", correlation(&mixed));
     }
-    // Negative control: the light walk's numbers reach the eye's in one sample of twenty.
-    let mut mixed = pairs(&own, &own);
-    mixed.iter_mut().step_by(20).for_each(|(light, eye)| *eye = *light);
-    assert!(correlation(&mixed) > limit, "{}", correlation(&mixed));
 }

@@ -9,7 +9,6 @@ use bdpt_explorer::bdpt::{Settings, Strategy};
 use bdpt_explorer::engine::{Job, Session};
 use bdpt_explorer::math::Vec3;
 use bdpt_explorer::report::check::pairwise::{ENOUGH, harmonic};
-use bdpt_explorer::rng::SampleId;
 use bdpt_explorer::scene::{Scene, builtin};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -63,7 +62,7 @@ pub fn each_sample(job: &Job, samples: u32, mut visit: impl FnMut(&Context, &mut
     let (k, lens) = (settings.max_edges as usize, usize::from(view.has_lens()));
     let ([width, height], mut sample) = (job.size, Sample::default());
     for n in 0..samples {
-        let id = SampleId { x: n % width, y: n / width % height, sample: n / (width * height), seed: settings.seed, ..SampleId::default() };
+        let id = settings.sample([n % width, n / width % height], n / (width * height));
         sample.trace(&context, id, k + lens, k + 1);
         visit(&context, &mut sample);
     }

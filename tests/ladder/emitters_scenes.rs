@@ -41,6 +41,17 @@ pub fn furnace_with_lens_at(radiance: f32, albedo: f32, scale: f64, offset: f64)
     room.build()
 }
 
+/// A camera flat on a wall, with a lens of this radius in the wall's plane, or `height` before it, that looks at a lamp. (m)
+pub fn camera_on_a_wall(radius: f64, height: f64) -> Arc<Scene> {
+    let mut room = Room::new("camera on a wall");
+    let (white, lamp) = (room.material(Material::lambert(Vec3::splat(0.5))), room.emitter(1.0, 0.5, false));
+    room.quad([-2.0, -2.0, 0.1], [0.0, 4.0, 0.0], [4.0, 0.0, 0.0], white);
+    room.quad([-2.0, -2.0, -0.9], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], lamp);
+    room.camera([0.05, 0.02, 0.1 - height], [0.05, 0.02, -0.9 - height], 50.0);
+    room.lens(radius, 0.5);
+    room.build()
+}
+
 /// A glass ball and a white one under a sky and a spot, scaled and moved.
 pub fn sky_at(scale: f64, offset: f64) -> Arc<Scene> {
     let at = |p: [f64; 3]| p.map(|c| c * scale + offset);

@@ -72,13 +72,7 @@ fn the_lens_is_sampled_as_it_says() {
 #[test]
 fn a_lens_in_the_plane_of_a_surface_sees_the_same_by_every_strategy() {
     for (radius, height) in [(0.1, 0.0), (0.0, 0.0), (0.1, 0.3)] {
-        let mut room = Room::new("camera on a wall");
-        let (white, lamp) = (room.material(Material::lambert(Vec3::splat(0.5))), room.emitter(1.0, 0.5, false));
-        room.quad([-2.0, -2.0, 0.1], [0.0, 4.0, 0.0], [4.0, 0.0, 0.0], white);
-        room.quad([-2.0, -2.0, -0.9], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], lamp);
-        room.camera([0.05, 0.02, 0.1 - height], [0.05, 0.02, -0.9 - height], 50.0);
-        room.lens(radius, 0.5);
-        let scene = room.build();
+        let scene = emitters_scenes::camera_on_a_wall(radius, height);
         let over_seeds = |strategies: StrategySet| {
             let mut moments = Moments::default();
             for seed in 0..16 {
@@ -114,7 +108,16 @@ fn sixty_four_edges_and_a_lens() {
 
 /// A small lamp that faces a lens from 2 m away; the lens is focused at 1 m.
 fn defocused_lamp() -> Arc<Scene> {
+    lamp_behind_a_shutter(0.0)
+}
+
+/// The same lamp with a black sheet close to the lens, which covers all of it on the left of `edge` (m from its middle); none at 0.
+fn lamp_behind_a_shutter(edge: f64) -> Arc<Scene> {
     let mut room = Room::new("defocused lamp");
+    if edge != 0.0 {
+        let black = room.material(Material::lambert(Vec3::ZERO));
+        room.quad([edge - 1.0, -0.5, 1.98], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], black);
+    }
     let lamp = room.emitter(50.0, 0.0, false);
     room.quad([0.25, 0.1, 0.0], [0.04, 0.0, 0.0], [0.0, 0.04, 0.0], lamp);
     room.camera([0.0, 0.0, 2.0], [0.0, 0.0, 0.0], 50.0);
@@ -196,6 +199,29 @@ fn a_defocused_lamp_makes_its_disk_by_light_that_hits_the_lens_alone() {
     assert!(reached.iter().all(|r| *r > 0.85 * radius.abs()), "{reached:?} of {radius}");
 }
 
+/// A sheet covers a part of the lens: every strategy sees that part dark, block by block, and not the lens as seen from its middle (which
+/// is free). Would have caught: splats that lack the darkening of a half-covered lens (pbrt-v4 #458).
+#[test]
+fn a_lens_that_is_half_covered_is_half_covered_for_every_strategy() {
+    let (covered, free) = (lamp_behind_a_shutter(-0.03), defocused_lamp());
+    let (by_eye, whole) = (blocks(&covered, alone(0, 2), 500, 96), blocks(&free, alone(0, 2), 500, 96));
+    let lit: Vec<usize> = (0..whole.len()).filter(|&b| whole[b].mean() > 0.0).collect();
+    let total = |of: &[Moments]| lit.iter().map(|&b| of[b].mean()).sum::<f64>();
+    // The lamp at x = 0.27, 2 m away, sees the edge, 2 cm before the lens, at −0.033 m: 0.165 radii left of the middle.
+    println!("{:.4} of the light comes through", total(&by_eye) / total(&whole));
+    assert!((total(&by_eye) / total(&whole) - 0.605).abs() < 0.03);
+    let limit = z_limit(1e-3, 2 * lit.len());
+    for only in [alone(2, 0), alone(1, 1)] {
+        let found = blocks(&covered, only, 0, 96);
+        let seen = |b: usize| found[b].non_zero.max(by_eye[b].non_zero) >= 16;
+        let worst = lit.iter().filter(|&&b| seen(b)).map(|&b| z_between(&found[b], &by_eye[b]).abs()).fold(0.0, f64::max);
+        let wrong = lit.iter().filter(|&&b| seen(b)).map(|&b| z_between(&found[b], &whole[b]).abs()).fold(0.0, f64::max);
+        println!("{only:?}: worst |z| {worst:.2} of {limit:.2}; without the sheet {wrong:.1}");
+        // Negative control: the lens as it is without the sheet.
+        assert!(worst < limit && wrong > 3.0 * limit, "{only:?}: {worst} {wrong}");
+    }
+}
+
 /// A point light, a mirror, and a lens: only light that hits the lens can show the reflection; its energy is that of the
 /// mirrored point.
 #[test]
@@ -273,6 +299,29 @@ fn a_closing_aperture_becomes_the_pinhole() {
         assert!(found[0].0 > 0.1 && found[0].1 > 1e-4, "{name}: {found:?}");
         assert!(found[3].0 < 1e-3 && found[3].1 < 1e-9, "{name}: {found:?}");
         assert!(found.windows(2).all(|w| w[1].0 < w[0].0), "{name}: {found:?}");
+    }
+}
+
+/// Light that a wall stops does not hit the lens, though its ray would; strategy by strategy, as t = 0 tests no visibility.
+#[test]
+fn light_that_a_wall_stops_does_not_hit_the_lens() {
+    let scene = |wall_z: f64| {
+        let mut room = Room::new("lamp and wall");
+        let (black, lamp) = (room.material(Material::lambert(Vec3::ZERO)), room.emitter(5.0, 0.0, false));
+        room.quad([-0.5, -0.5, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], lamp);
+        room.quad([-2.0, -2.0, wall_z], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], black);
+        room.camera([0.0, 0.0, 1.0], [0.0, 0.0, 0.0], 50.0);
+        room.lens(0.4, 1.0);
+        room.build()
+    };
+    let light = |wall_z: f64, strategies: StrategySet| {
+        let settings = Settings { max_edges: 1, strategies, ..Settings::default() };
+        mean(&rendered(job(&scene(wall_z), [16, 16], settings), 16).image())
+    };
+    for only in [alone(2, 0), alone(1, 1), alone(0, 2)] {
+        assert_eq!(light(0.5, only), 0.0, "{only:?}");
+        // Negative control: a wall behind the lamp.
+        assert!(light(-0.5, only) > 0.5, "{only:?}");
     }
 }
 

@@ -151,7 +151,7 @@ pub fn furnace_at(radiance: f32, albedo: f32, scale: f64, offset: f64) -> Arc<Sc
 pub fn lamp_in_glass() -> Arc<Scene> {
     let mut room = Room::new("lamp in glass");
     let white = room.material(Material::lambert(Vec3::splat(0.6)));
-    let glass = room.material(Material::dielectric(Vec3::ONE, 1.5, false));
+    let glass = room.material(Material::dielectric(Vec3::new(0.7, 1.0, 0.9), 1.5, false));
     let lamp = room.emitter(10.0, 0.2, true);
     room.cuboid([-1.0; 3], [1.0; 3], true, [white; 6]);
     room.sphere([0.0, 0.2, 0.0], 0.45, 24, true, glass);

@@ -69,6 +69,9 @@ fn every_pair_of_strategies_agrees_per_length() {
         }
     }
     assert!(with_t_0 >= 60, "{with_t_0} pairs with t = 0 are too few");
+    let of_length = |length: u32| results.iter().filter(|(_, (k, ..), _)| *k == length).count();
+    println!("pairs by length: {:?}", (1..=K).map(of_length).collect::<Vec<_>>());
+    assert!((1..=K).all(|k| of_length(k) >= 20), "too few pairs of some length");
     let limit = z_limit(1e-3, results.len());
     let worst = results.iter().max_by(|a, b| a.2.abs().total_cmp(&b.2.abs())).unwrap();
     println!("{} comparisons, |z| limit {limit:.2}, worst {worst:?}", results.len());

@@ -6,10 +6,12 @@
 //! ```
 
 use super::*;
+use bdpt_explorer::engine::{Job, Session};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{Config, TestRunner};
+use std::cell::Cell;
 use std::time::{Duration, Instant};
 
 /// Longest time one small file may take to load or to be refused.
@@ -70,8 +72,8 @@ pub fn everything() -> Glb {
     glb
 }
 
-/// Loads bytes: a scene whose numbers can be used, or an error of one line, in time.
-fn survives(bytes: &[u8], what: &str) {
+/// Loads bytes: a scene whose numbers can be used, or an error of one line, in time. Did it load?
+fn survives(bytes: &[u8], what: &str) -> bool {
     let start = Instant::now();
     let result = std::panic::catch_unwind(|| {
         let scene = gltf::load_bytes("fuzz.glb", bytes, &Overrides::default()).map_err(|e| e.to_string())?;
@@ -87,9 +89,10 @@ fn survives(bytes: &[u8], what: &str) {
             let emitted = scene.emission_factor::<General>(triangle, at.material, look.barycentric);
             assert!(emitted.is_finite() && emitted.min_element() >= -1e-5, "{emitted}");
         }
+        shows_something(scene);
         Ok::<_, String>(())
     });
-    match result {
+    match &result {
         Ok(Err(message)) => assert!(message.starts_with("fuzz.glb: ") && !message.contains('\n'), "{what}: {message}"),
         Ok(Ok(())) => {}
         Err(_) => {
@@ -99,6 +102,16 @@ fn survives(bytes: &[u8], what: &str) {
         }
     }
     assert!(start.elapsed() < PATIENCE, "{what}: it took {:?}", start.elapsed());
+    matches!(result, Ok(Ok(())))
+}
+
+/// A pass of a few pixels holds nothing infinite, undefined or negative.
+fn shows_something(scene: Scene) {
+    let mut session = Session::new(Job { size: [4, 3], ..Job::new(scene.into()) }).unwrap();
+    while session.passes() < 1 {
+        session.step(Duration::from_secs(1));
+    }
+    assert!(session.image().iter().all(|c| c.is_finite() && c.min_element() >= 0.0), "{:?}", session.image());
 }
 
 /// A change of a file.
@@ -183,15 +196,19 @@ fn run(seed: u64, cases: u32) {
     let original = everything().bytes();
     let json_end = 20 + u32::from_le_bytes([original[12], original[13], original[14], original[15]]) as usize;
     let config = Config { cases, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(seed), ..Config::default() };
+    let loaded = Cell::new(0);
     let result = TestRunner::new(config).run(&vec(change(), 1..5), |changes| {
         let mut bytes = original.clone();
         changes.iter().for_each(|change| change.apply(&mut bytes, json_end));
-        survives(&bytes, "a changed file");
+        loaded.set(loaded.get() + u32::from(survives(&bytes, "a changed file")));
         Ok(())
     });
     if let Err(error) = result {
         panic!("seed {seed}: {error}");
     }
+    // Enough of them load, and enough are refused, for either to be tried.
+    println!("{} of {cases} load", loaded.get());
+    assert!(loaded.get() * 10 > cases && (cases - loaded.get()) * 10 > cases, "{loaded:?} of {cases}");
 }
 
 #[test]
@@ -199,7 +216,7 @@ fn changed_files_make_errors_not_panics() {
     let original = everything().bytes();
     let scene = gltf::load_bytes("fuzz.glb", &original, &Overrides::default()).unwrap();
     assert!(scene.features.alpha_mask && scene.features.normal_maps && scene.features.unlit && scene.features.vertex_colors);
-    survives(&original, "the file itself");
+    assert!(survives(&original, "the file itself"));
     run(1 << 32, 5_000);
 }
 

@@ -150,6 +150,11 @@ fn how_much_light_is_missing_is_a_click_away_from_where_it_is_said() {
     click(&mut window, Role::Button, "How much?");
     let state = window.state().state();
     assert_eq!((state.prefs.tab, state.maximised), (Tab::Checks, bdpt_explorer::ui::state::Maximised::None));
+    // The page is longer than the window; the check that was asked for is in view.
+    window.run_steps(2);
+    let lowest = |name: &str| window.query_all_by_label_contains(name).map(|node| node.rect().bottom()).fold(f32::MIN, f32::max);
+    let (row, view) = (lowest("Missing light: "), window.ctx.content_rect());
+    assert!(row < view.bottom() && row > lowest("Replay: "), "{row} of {view:?}, {}", lowest("Replay: "));
     until(&mut window, "the estimate", |app| !app.live().checks().running() && app.live().checks().result(Check::Missing).is_some());
     window.run_steps(2);
     let (found, current) = result(&window).expect("a result");

@@ -105,10 +105,15 @@ fn rays(triangles: &[Triangle], stream: u32, count: u32, scale: f32) -> impl Ite
 fn check_hits(triangles: &[Triangle], stream: u32, count: u32, scale: f32) -> u32 {
     let mut own = triangles.to_vec();
     let bvh = Bvh::build(&mut own);
-    check_tree(&bvh.nodes, bvh.depth, &own);
+    check_hits_of(&bvh, &own, stream, count, scale)
+}
+
+/// The same for a tree that is there.
+fn check_hits_of(bvh: &Bvh, own: &[Triangle], stream: u32, count: u32, scale: f32) -> u32 {
+    check_tree(&bvh.nodes, bvh.depth, own);
     let mut hits = 0;
-    for ray in rays(triangles, stream, count, scale) {
-        let (found, expected) = (bvh.closest_hit(&ray), brute_force(&own, &ray));
+    for ray in rays(own, stream, count, scale) {
+        let (found, expected) = (bvh.closest_hit(&ray), brute_force(own, &ray));
         assert_eq!(found.is_some(), expected.is_some(), "{ray:?} at scale {scale}");
         // Where triangles cross or overlap, which is nearer is a matter of rounding.
         let gap = found.zip(expected).map_or(0.0, |(f, e)| (f.distance - e.distance).abs());
@@ -181,6 +186,21 @@ fn degenerate_input_builds() {
     let points = vec![triangle(Vec3::ONE, Vec3::ONE, Vec3::ONE); 100];
     assert_eq!(check_hits(&points, 14, 2000, 1.0), 0);
     assert!(Bvh::build(&mut Vec::new()).closest_hit(&Ray { origin: Vec3::ZERO, direction: Vec3::X }).is_none());
+}
+
+#[test]
+fn a_refitted_tree_holds_what_has_moved() {
+    let corner = |i: u32, j: u32| in_cube(15, 4 * i) + in_cube(15, 4 * i + j) * 0.1;
+    let mut triangles: Vec<_> = (0..400).map(|i| triangle(corner(i, 1), corner(i, 2), corner(i, 3))).collect();
+    let bvh = Bvh::build(&mut triangles);
+    for (triangle, i) in triangles.iter_mut().zip(0..) {
+        let by = in_cube(16, i) * 0.3;
+        (triangle.p0, triangle.p1, triangle.p2) = (triangle.p0 + by, triangle.p1 + by, triangle.p2 + by);
+    }
+    assert!(check_hits_of(&bvh.refitted(&triangles), &triangles, 17, 10_000, 2.0) > 5000);
+    // Negative control: the boxes from before.
+    let missed = rays(&triangles, 17, 10_000, 2.0).filter(|ray| bvh.closest_hit(ray).is_none() && brute_force(&triangles, ray).is_some());
+    assert!(missed.count() > 100);
 }
 
 #[test]

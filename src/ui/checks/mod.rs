@@ -12,8 +12,9 @@ use super::widgets::pair;
 use crate::report::check::said::short;
 use crate::report::check::{Check, CheckResult, Finding, Verdict};
 use crate::rng::Sampler;
+use eframe::egui::style::ScrollAnimation;
 use eframe::egui::text::LayoutJob;
-use eframe::egui::{Align, Button, Frame, Label, Layout, Margin, ProgressBar, RichText, Role, TextFormat, TextStyle, Ui, WidgetInfo};
+use eframe::egui::{Align, Button, Frame, Label, Layout, Margin, ProgressBar, Rect, RichText, Role, TextFormat, TextStyle, Ui, WidgetInfo};
 use icon::Mark;
 
 /// What a person asks of the checks.
@@ -34,6 +35,8 @@ pub struct ChecksState {
     pub thorough: bool,
     /// The checks whose details are shown.
     pub unfolded: Vec<Check>,
+    /// The check to scroll to, and whether that was done before it had a result.
+    pub scroll_to: Option<(Check, bool)>,
 }
 
 /// Opens the page, and asks how much light is missing, if that is not known.
@@ -47,6 +50,7 @@ pub fn ask_what_is_missing(state: &mut State, runner: &Runner) {
     if !state.checks.unfolded.contains(&Check::Missing) {
         state.checks.unfolded.push(Check::Missing);
     }
+    state.checks.scroll_to = Some((Check::Missing, false));
 }
 
 /// Shows the page.
@@ -62,10 +66,21 @@ pub fn show(ui: &mut Ui, state: &mut State, live: &Live) {
     ui.add_space(4.0);
     for check in Check::ALL {
         let ground = Frame::group(ui.style()).inner_margin(Margin::symmetric(8, 6));
-        ground.show(ui, |ui| {
+        let shown = ground.show(ui, |ui| {
             ui.set_width(ui.available_width());
             row(ui, state, runner, check);
         });
+        let known = runner.result(check).is_some_and(|(_, current)| current);
+        bring(ui, state, (check, known), shown.response.rect);
+    }
+}
+
+/// Scrolls to a check that was asked for elsewhere: as the page opens, and once more with its result, which is longer.
+fn bring(ui: &Ui, state: &mut State, (check, known): (Check, bool), row: Rect) {
+    let Some((wanted, begun)) = state.checks.scroll_to else { return };
+    if wanted == check && (known || !begun) {
+        ui.scroll_to_rect_animation(row, Some(Align::TOP), ScrollAnimation::none());
+        state.checks.scroll_to = (!known).then_some((check, true));
     }
 }
 

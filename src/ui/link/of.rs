@@ -78,7 +78,7 @@ impl Link {
         let Opening { scene, files, inside, environment } = opened;
         let Selection { pixel, sample, strategy, vertex } = *selection;
         let EditState { edits, history: _, moving: _, grip: _, bookmark_name: _, renaming: _ } = edit;
-        let ChecksState { ask: _, thorough: _, unfolded: _ } = checks;
+        let ChecksState { ask: _, thorough: _, unfolded: _, scroll_to: _ } = checks;
         let (environment, turn) = environment.as_ref().map_or((None, 0.0), surroundings);
         Self {
             version: LINK_VERSION,
