@@ -16,10 +16,10 @@ use super::path::{Edge, FullPath};
 use super::reason::Reason;
 use super::settings::Settings;
 use super::strategy::Strategy;
-use super::vertex::{AT_INFINITY, DISCRETE, MOST_GEOMETRY, Subpath, Vertex};
+use super::vertex::{AT_INFINITY, DISCRETE, End, MOST_GEOMETRY, Subpath, Vertex};
 use super::visibility::visibility;
 use crate::math::{Vec2, Vec3};
-use crate::rng::{BLOCK_EYE_START, BLOCK_FRESH_LENS, BLOCK_FRESH_LIGHT, BLOCK_FRESH_PLACE, SampleId, pair};
+use crate::rng::{BLOCK_FRESH_LENS, BLOCK_FRESH_LIGHT, BLOCK_FRESH_PLACE, SampleId, pair};
 use crate::scene::light::AREA;
 use crate::scene::{NONE, Shape};
 
@@ -72,14 +72,11 @@ impl Sample {
         self.id = id;
         let last = context.light_subpath(id, light_vertices, &mut self.light, &mut self.rays_closest);
         crossing::find(context, &self.light, last, &mut self.crossings);
-        let eye_id = context.settings.eye_id(id);
-        if eye_vertices > 0 && context.settings.is_met(id) {
-            self.raster = context.eye_subpath(eye_id, eye_vertices, &mut self.eye, &mut self.rays_closest);
-        } else {
-            // Only splats are wanted of this sample: the lens is all they need.
-            self.eye.vertices.clear();
-            let u = eye_id.numbers(BLOCK_EYE_START);
-            self.eye.vertices.push(context.lens_vertex(context.view.sample_lens(pair(u, 2))));
+        // Where only splats are wanted of a sample, the lens is all they need.
+        let most = if context.settings.is_met(id) { eye_vertices } else { 0 };
+        self.raster = context.eye_subpath(context.settings.eye_id(id), most, &mut self.eye, &mut self.rays_closest);
+        if most == 0 {
+            self.eye.end = End::NotNeeded;
         }
     }
 

@@ -4,7 +4,7 @@
 use crate::harness::{Work, gpu};
 use crate::stats::{Moments, z_between, z_limit};
 use crate::{emitters_scenes, scenes, surface_scenes};
-use bdpt_explorer::bdpt::{Heuristic, HeuristicKind, Settings, StrategySet};
+use bdpt_explorer::bdpt::{Heuristic, HeuristicKind, Settings, Strategy, StrategySet};
 use bdpt_explorer::engine::{Crop, Job};
 use bdpt_explorer::film::Film;
 use bdpt_explorer::gpu::{Gpu, Kernels, Layouts, Renderer, Specialisation, shader::Source};
@@ -35,9 +35,14 @@ pub fn all_scenes() -> Vec<Arc<Scene>> {
 
 /// The share of pixels with light in one of two films, over all layers, that agree to 10⁻³ (a path that took another turn does not).
 pub fn agreement(work: &Work, a: &Film, b: &Film) -> f64 {
+    agreement_of(work, a, b, |_| true).0
+}
+
+/// The same of some strategies, and how many pixels that are.
+fn agreement_of(work: &Work, a: &Film, b: &Film, these: impl Fn(Strategy) -> bool) -> (f64, u32) {
     let (mut same, mut all) = (0u32, 0u32);
     let (a, b) = (a.means(), b.means());
-    for (strategy, weighted) in work.plan.strategies().flat_map(|x| [(x, true), (x, false)]) {
+    for (strategy, weighted) in work.plan.strategies().filter(|x| these(*x)).flat_map(|x| [(x, true), (x, false)]) {
         let layer = work.plan.layer(strategy, weighted).unwrap();
         for pixel in 0..(work.job.size[0] * work.job.size[1]) as usize {
             let (x, y) = (layer.mean(&a, pixel), layer.mean(&b, pixel));
@@ -48,7 +53,7 @@ pub fn agreement(work: &Work, a: &Film, b: &Film) -> f64 {
             same += u32::from((x - y).abs().max_element() <= 1e-3 * (x + y).max_element() + 1e-9);
         }
     }
-    if all == 0 { 1.0 } else { f64::from(same) / f64::from(all) }
+    (if all == 0 { 1.0 } else { f64::from(same) / f64::from(all) }, all)
 }
 
 #[test]
@@ -69,6 +74,7 @@ fn the_same_seed_gives_the_same_picture() {
         // Nothing splats, and samples are numbered by light subpath all the same.
         Settings { strategies: StrategySet::where_(|x| x.s <= 1 && x.t >= 2), light_subpaths: 3, ..plain },
     ];
+    let mut lit_on_lens = 0;
     for (i, scene) in all_scenes().into_iter().enumerate() {
         // Every scene as it is, and in turn one of the other ways.
         for settings in [plain, variants[1 + i % 5]] {
@@ -77,11 +83,16 @@ fn the_same_seed_gives_the_same_picture() {
             let agreement = agreement(&work, &a, &b);
             println!("{:40} {:.5} of the pixels agree; rays {gpu_counts:?}", scene.name, agreement);
             assert!(agreement > 0.995, "{} {settings:?}: {agreement}", scene.name);
+            // Of light that hits the lens there is little: it must not hide among the rest.
+            let (on_lens, pixels) = agreement_of(&work, &a, &b, |x| x.t == 0);
+            assert!(on_lens > 0.98 || pixels < 50, "{} {settings:?}: {on_lens} of {pixels} on the lens", scene.name);
+            lit_on_lens += u32::from(pixels >= 50);
             let rays = |counts: &bdpt_explorer::bdpt::render::Counts| (counts.rays_closest + counts.rays_shadow) as f64;
             assert!((rays(&gpu_counts) - rays(&cpu_counts)).abs() <= 2e-3 * rays(&cpu_counts), "{gpu_counts:?} {cpu_counts:?}");
             assert_eq!([gpu_counts.non_finite, gpu_counts.saturated], [0; 2]);
         }
     }
+    assert!(lit_on_lens >= 5, "{lit_on_lens}");
     // The control: another seed gives another picture.
     let other = |seed| work(scenes::builtin("cornell"), 24, Settings { seed, ..plain });
     assert!(agreement(&other(1), &other(1).on_gpu(gpu, 4).0, &other(2).on_cpu(4).0) < 0.7);

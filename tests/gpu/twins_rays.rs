@@ -232,6 +232,46 @@ fn no_ray_escapes() {
     }
 }
 
+/// A ray passes a triangle's edge so closely that f32 takes the edge function for 0: its exact sign says whether it hits.
+#[test]
+fn the_sign_of_an_edge_function_decides() {
+    let Some(gpu) = gpu("the_sign_of_an_edge_function_decides") else { return };
+    let work = Work::new(Job::new(scenes::patches()));
+    // The ray is the z axis, and the edge from a to b passes it but for the rounding of b; c lies on either side.
+    let triangles: Vec<[Vec3; 3]> = (0..6000)
+        .map(|i| {
+            let [x, y, k, side] = random(41, i);
+            let (a, k) = (Vec3::new(x - 0.5, y - 0.5, 1.0), 0.5 + k);
+            let c = Vec3::new(-a.y, a.x, 0.0) * if side < 0.5 { 1.0 } else { -1.0 } + Vec3::Z;
+            let mut corners = [a, Vec3::new(-a.x * k, -a.y * k, 1.0), c];
+            corners.rotate_left(i % 3);
+            corners
+        })
+        .collect();
+    let body = "fn run_row(row: u32) {
+        var triangle = triangles[0];
+        triangle.p0 = in_v(row, 0u);
+        triangle.p1 = in_v(row, 3u);
+        triangle.p2 = in_v(row, 6u);
+        let ray = prepared_ray(vec3<f32>(0.0), vec3<f32>(0.0, 0.0, 1.0));
+        out_u(row, 0u, triangle_hit(ray, triangle, 7u, 10.0).triangle);
+    }";
+    let table: Vec<f32> = triangles.iter().flatten().flat_map(|p| p.to_array()).collect();
+    let out = Table { gpu, work: &work, change: None }.run(body, 9, 1, &table);
+    let (mut vanish, mut hits, mut wrong) = (0, 0, 0);
+    for (row, [a, b, c]) in out.iter().zip(&triangles) {
+        // Products of two f32 are exact in f64.
+        let edges = [(c, b), (a, c), (b, a)].map(|(p, q)| f64::from(p.x) * f64::from(q.y) - f64::from(p.y) * f64::from(q.x));
+        let plain = [(c, b), (a, c), (b, a)].map(|(p, q)| p.x * q.y - p.y * q.x);
+        let hit = !(edges.iter().any(|e| *e < 0.0) && edges.iter().any(|e| *e > 0.0));
+        vanish += usize::from(plain.iter().zip(edges).any(|(plain, exact)| *plain == 0.0 && exact != 0.0));
+        hits += usize::from(hit);
+        wrong += usize::from((row[0].to_bits() == 7) != hit);
+    }
+    println!("of {} triangles {hits} are hit; of {vanish} an edge vanishes in f32; {wrong} decided otherwise", triangles.len());
+    assert!(wrong == 0 && vanish > 1000 && (1000..5000).contains(&hits), "{wrong} {vanish} {hits}");
+}
+
 #[test]
 fn products_are_compared_exactly() {
     let Some(gpu) = gpu("products_are_compared_exactly") else { return };

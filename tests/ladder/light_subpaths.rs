@@ -3,6 +3,7 @@
 
 use crate::images::{job, mean_over_seeds, rendered};
 use crate::scenes;
+use bdpt_explorer::bdpt::vertex::End;
 use bdpt_explorer::bdpt::{Settings, Strategy, StrategySet};
 use bdpt_explorer::engine::record;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
@@ -33,6 +34,8 @@ fn a_pass_is_the_sum_of_its_samples() {
         for sample in 0..2 * N {
             let record = record(&job, [x, y], sample).unwrap();
             assert!(record.eye.vertices.len() == 1 || sample % N == 0, "only the first light subpath is met");
+            assert!(sample % N == 0 || record.eye.end == End::NotNeeded, "{:?}", record.eye.end);
+            assert_eq!(record.raster.map(|v| v as usize), [x as usize, y as usize]);
             for found in record.strategies.iter().filter(|found| found.feasible) {
                 assert!(sample % N == 0 || found.t <= 1);
                 let [x, y] = if found.t <= 1 { found.raster.unwrap().map(|v| v as usize) } else { [x as usize, y as usize] };

@@ -170,7 +170,7 @@ impl Quads {
 
 impl Quad {
     /// Four empty lanes.
-    const EMPTY: Self = Self { bounds: [[Vec4::MAX; 3], [Vec4::MIN; 3]], children: [LEAF; 4] };
+    pub const EMPTY: Self = Self { bounds: [[Vec4::MAX; 3], [Vec4::MIN; 3]], children: [LEAF; 4] };
 
     fn put(&mut self, lane: usize, node: &Node, child: u32) {
         for axis in 0..3 {

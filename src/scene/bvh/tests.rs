@@ -4,6 +4,7 @@ use super::*;
 use crate::math::Vec2;
 use crate::rng::SampleId;
 use crate::scene::{NONE, builtin};
+use glam::Vec3Swizzles;
 
 /// Numbers in [0, 1)⁴, the i-th four of a test's own stream.
 fn random(stream: u32, i: u32) -> [f32; 4] {
@@ -144,6 +145,35 @@ fn hits_equal_brute_force_at_all_scales_and_offsets() {
         hits += check_hits(&triangles, 1000 + 4 * round, 3000, scale * 3.0);
     }
     assert!(hits > 60_000, "{hits}");
+}
+
+/// A ray that meets a box exactly (in f64) is told to meet it, by the narrowest margin and from a thousand times as far as the box is wide.
+#[test]
+fn no_box_that_the_exact_ray_meets_is_left_out() {
+    let mut narrow = 0;
+    for i in 0..300_000 {
+        let (low, size) = (in_cube(41, i), in_cube(42, i).abs());
+        let high = low + if i % 2 == 0 { size } else { size * Vec3::new(1e-6, 1.0, 1.0) };
+        // A point near one of its edges.
+        let [u, v, w, inside] = random(43, i);
+        let (along, axis) = (Vec3::new(u, v.round(), w.round()), i as usize % 3);
+        let along = [along, along.zxy(), along.yzx()][axis];
+        let target = low + (high - low) * (along * (1.0 - 1e-6 * inside) + 0.5e-6 * inside);
+        let direction = (target - in_cube(44, i) * 10f32.powi(i as i32 % 4)).normalize();
+        let origin = target - direction * 10f32.powi(i as i32 % 4);
+        let distances = |corner: Vec3| (corner.as_dvec3() - origin.as_dvec3()) / direction.as_dvec3();
+        let (a, b) = (distances(low), distances(high));
+        let (enter, leave) = (a.min(b).max_element(), a.max(b).min_element());
+        if direction.min_element() == 0.0 || !(0.0 <= enter && enter <= leave) {
+            continue;
+        }
+        let mut quad = quads::Quad::EMPTY;
+        quad.bounds = [low, high].map(|corner| corner.to_array().map(glam::Vec4::splat));
+        let (met, _) = PreparedRay::new(origin, direction).enter(&quad, f32::MAX);
+        assert_eq!(met & 1, 1, "{i}: {low} to {high} from {origin} along {direction}");
+        narrow += u32::from(leave < enter * (1.0 + 1e-7));
+    }
+    assert!(narrow > 1000, "{narrow} by a margin that f32 rounds");
 }
 
 #[test]
