@@ -91,7 +91,7 @@ fn findings(list: &str, report: &str) -> Vec<String> {
             None => find("not in the report: run tests/mutants/run.py --only with its name".to_owned()),
             Some(row) if row.contains("**survives**") && slip.accepted.is_none() => find("survives, and nobody says why it may".to_owned()),
             Some(row) if row.contains("not run to the end") => {
-                find("not judged yet: run tests/mutants/run.py --only with its name".to_owned())
+                find("not judged yet: run tests/mutants/run.py --only with its name".to_owned());
             }
             Some(_) => {}
         }
