@@ -98,15 +98,19 @@ fn lens(own: Lens, args: &ViewArgs) -> Option<Lens> {
     (lens != own).then_some(lens)
 }
 
-/// The settings with the strategies, and the number of light subpaths, that a pilot run suggests.
-fn suggested(args: &EstimatorArgs, hide: bool, job: &Job) -> Result<Settings, Failure> {
-    let other = match (hide, args.integrator.as_str(), args.light_subpaths) {
-        (true, ..) => Some("--strategies-mode hide".to_owned()),
+/// The option by which strategies, or the number of light subpaths, are chosen, if there is one.
+pub fn own_choice(args: &EstimatorArgs) -> Option<String> {
+    match (&args.strategies, args.integrator.as_str(), args.light_subpaths) {
+        (Selection::Listed(_), ..) => Some("--strategies with a list".to_owned()),
         (_, integrator, _) if integrator != "bdpt" => Some(format!("--integrator {integrator}")),
         (.., n) if n != 1 => Some(format!("--light-subpaths {n}")),
         _ => None,
-    };
-    if let Some(other) = other {
+    }
+}
+
+/// The settings with the strategies, and the number of light subpaths, that a pilot run suggests.
+fn suggested(args: &EstimatorArgs, hide: bool, job: &Job) -> Result<Settings, Failure> {
+    if let Some(other) = hide.then(|| "--strategies-mode hide".to_owned()).or_else(|| own_choice(args)) {
         return Err(Failure(format!(
             "--strategies suggested chooses the strategies and how many light subpaths they get, so it does not go with {other}; leave one out"
         )));

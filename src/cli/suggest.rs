@@ -1,7 +1,7 @@
 //! `suggest`: which strategies a scene needs, judged by a short pilot run.
 
 use super::args::SuggestArgs;
-use super::job::prepare;
+use super::job::{own_choice, prepare};
 use super::{Failure, print};
 use crate::bdpt::pilot::Judged;
 use std::fmt::Write;
@@ -11,6 +11,11 @@ const ROWS: usize = 10;
 
 /// Carries out `suggest`.
 pub fn run(args: &SuggestArgs) -> Result<(), Failure> {
+    if let Some(other) = own_choice(&args.estimator) {
+        return Err(Failure(format!(
+            "suggest judges the strategies and how many light subpaths they get, so it does not go with {other}; leave that out"
+        )));
+    }
     let job = prepare(&args.estimator, false)?.job;
     job.check()?;
     print(&table(&args.estimator.scene, &job.judge_strategies()));
@@ -19,6 +24,9 @@ pub fn run(args: &SuggestArgs) -> Result<(), Failure> {
 
 /// The candidates, the best first, and what to do.
 fn table(scene: &str, judged: &[Judged]) -> String {
+    if judged.is_empty() {
+        return "There is nothing to judge: no paths are made, or only paths of one edge.\n".to_owned();
+    }
     let mut text = "efficiency  variance    cost  strategies\n".to_owned();
     for x in judged.iter().take(ROWS) {
         let (low, high) = ((x.ln_gain - 2.0 * x.error).exp(), (x.ln_gain + 2.0 * x.error).exp());

@@ -26,12 +26,17 @@ fn a_pinhole_a_point_and_a_mirror_miss_a_named_part_of_the_light() {
     assert!(result.findings[0].meaning.to_string().contains("L₀S⁺E, L₀S⁺DS⁺E"), "{:?}", result.findings);
     // A path tracer misses the caustics as well, and no blur is needed to find them.
     let by_eye = missing(&with(&pinhole, StrategySet::path_tracer()));
-    assert!(by_eye.figure.unwrap() > share && by_eye.measured.unwrap().to_string().contains("L₀S⁺DE "));
+    assert!(by_eye.figure.unwrap() > share && by_eye.measured.as_ref().unwrap().to_string().contains("L₀S⁺DE "));
+    // What helps is what would: not what is there already, or what is of no use to these strategies.
+    let helps = |result: &CheckResult| result.findings[0].look.to_string();
+    let [aperture, extent, take_in] = [Phrase::LookAperture, Phrase::LookExtent, Phrase::LookTakeIn].map(|phrase| phrase.text());
+    assert_eq!((helps(&result), helps(&by_eye)), (format!("{aperture} {extent}"), format!("{extent} {take_in}")));
     // With a lens nothing is missing, but without t = 0 it is what it was (seen through the lens).
     let lens = Job { lens: Some(Lens { radius: 0.08, focus_distance: 2.9 }), ..pinhole.clone() };
     assert_eq!(missing(&lens).verdict, Verdict::Pass);
     let closed = missing(&with(&lens, StrategySet::where_(|x| x.t > 0)));
     assert!((closed.figure.unwrap() / share - 1.0).abs() < 0.3, "{closed:?} beside {share}");
+    assert_eq!(helps(&closed), format!("{extent} {take_in}"));
 }
 
 #[test]

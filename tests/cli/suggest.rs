@@ -26,6 +26,9 @@ fn a_suggestion_does_not_go_with_another_choice() {
         "render cornell -o a.exr --size 8x8 --strategies suggested --integrator pt",
         "render cornell -o a.exr --size 8x8 --strategies suggested --strategies-mode hide",
         "render cornell -o a.exr --size 8x8 --strategies suggested --light-subpaths 3",
+        "suggest cornell --size 8x8 --light-subpaths 3",
+        "suggest cornell --size 8x8 --integrator lt",
+        "suggest cornell --size 8x8 --strategies s0t2,s1t2",
         "suggest nowhere.glb",
         "suggest",
     ] {

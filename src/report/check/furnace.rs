@@ -104,7 +104,8 @@ fn judge(found: &Found, material: &Material, samples: u64) -> CheckResult {
         () => Verdict::Fail,
     };
     let (value, error) = (short(found.all.mean()), short(found.all.error()));
-    let measured = Said::new(Phrase::MeasuredFurnace, &[&value, &error, &short(total), &short(worst), &short(limit), &LEVEL]);
+    let measured =
+        Said::new(Phrase::MeasuredFurnace, &[&value, &error, &short(total), &found.lengths.len(), &short(worst), &short(limit), &LEVEL]);
     let finding = |&&(k, moments, exact, _): &&(Option<usize>, &Moments, f64, f64)| {
         let [value, error, exact] = [moments.mean(), moments.error(), exact].map(short);
         let meaning = match k {

@@ -37,6 +37,8 @@ pub struct Lost {
     names: Vec<String>,
     /// Number of its name, and whether it takes a blur.
     kinds: HashMap<Kind, (usize, bool)>,
+    /// What would bring at least some of them.
+    helps: Vec<Phrase>,
 }
 
 impl Lost {
@@ -51,6 +53,17 @@ impl Lost {
             }
             lost.kinds.insert(kind, (number, !existence.make(&kind, &without_lens)));
         }
+        let (open, any) = (Existence { lens: true, ..*existence }, |helps: &dyn Fn(&Kind) -> bool| lost.kinds.keys().any(helps));
+        let extended = |mut kind: Kind| {
+            kind.can_be_hit = true;
+            kind
+        };
+        let ways = [
+            (any(&|kind| open.make(kind, &settings.strategies)), Phrase::LookAperture),
+            (any(&|kind| existence.make(&extended(*kind), &settings.strategies)), Phrase::LookExtent),
+            (any(&|kind| existence.make(kind, &StrategySet::ALL)), Phrase::LookTakeIn),
+        ];
+        lost.helps = ways.into_iter().filter(|(helps, _)| *helps).map(|(_, phrase)| phrase).collect();
         lost
     }
 }
@@ -243,9 +256,13 @@ fn result(verdict: Verdict, measured: Said, figure: Option<f64>, samples: u64) -
 
 fn judge(estimate: &Estimate, lost: &Lost, settings: &Settings) -> CheckResult {
     let by_name = estimate.by_name(lost);
-    let ([share, error], [half, _]) = (estimate.share(0), estimate.share(1));
+    let ([share, error], [half, half_error]) = (estimate.share(0), estimate.share(1));
     let percent = |x: f64| short(100.0 * x);
-    let list = |names: &mut dyn Iterator<Item = String>| names.take(NAMES).collect::<Vec<_>>().join(", ");
+    let list = |names: &mut dyn Iterator<Item = String>| {
+        let mut names: Vec<String> = names.take(NAMES + 1).collect();
+        names.iter_mut().skip(NAMES).for_each(|name| *name = "…".to_owned());
+        names.join(", ")
+    };
     if estimate.paths() < ENOUGH || !share.is_finite() {
         let names = list(&mut lost.names.iter().cloned());
         let measured = Said::new(Phrase::MeasuredMissingTooRare, &[&names, &estimate.paths(), &estimate.samples]);
@@ -257,9 +274,10 @@ fn judge(estimate: &Estimate, lost: &Lost, settings: &Settings) -> CheckResult {
     let mut measured = Said::new(Phrase::MeasuredMissing, &[&percent(share), &low, &high, &settings.max_edges, &parts]);
     if estimate.eye.samples > 0.0 {
         let blurred = Said::new(Phrase::MeasuredMissingBlurred, &[]).with(measured);
-        measured = blurred.and(&percent(f64::from(BLURS[0]))).and(&percent(half));
+        measured = blurred.and(&percent(f64::from(BLURS[0]))).and(&format!("{} ± {}", percent(half), percent(Z * half_error)));
     }
     let meaning = Said::new(Phrase::LightIsMissing, &[&list(&mut found().map(|(name, _)| name.clone()))]);
-    let findings = vec![Finding { meaning, look: Phrase::LookMissing.into(), place: None }];
+    let look = lost.helps.iter().map(|&phrase| Said::from(phrase)).reduce(|first, next| Said::from(Phrase::Both).with(first).with(next));
+    let findings = vec![Finding { meaning, look: look.unwrap_or(Phrase::LookTakeIn.into()), place: None }];
     CheckResult { findings, ..result(Verdict::LightMissing, measured, Some(share), estimate.samples) }
 }

@@ -49,7 +49,7 @@ phrases! {
     // What was measured.
     MeasuredReplay: "{} paths rebuilt {} times: p differs by {} at most, f by {}, Σw from 1 by {} (relative; bound {}, which {} paths exceed)";
     MeasuredPairwise: "{} pairs judged, the largest |z| is {} (bound {}, level {} over all pairs); {} pairs had not enough samples";
-    MeasuredFurnace: "radiance {} ± {}, exactly {}; the largest |z| over all lengths is {} (bound {}, level {})";
+    MeasuredFurnace: "radiance {} ± {}, exactly {} on paths of at most {} edges; the largest |z| over all lengths is {} (bound {}, level {})";
     MeasuredIntegrators: "PT finds {} ± {} of the light of BDPT, LT {} ± {}; {} comparisons, the largest |z| is {} (bound {}, level {})";
     MeasuredFinite: "{} contributions: {} not finite, {} negative, {} weights outside 0…1; {} passes under {} kinds of weights: {} left out, {} too large";
     MeasuredGpu: "{} of {} values equal to {} after {} passes (at least {} must be); {}";
@@ -104,7 +104,10 @@ phrases! {
     LookSplat: "src/bdpt/render.rs, splat_quantum; src/film/mod.rs: 2⁶³ quanta a pass.";
     WrongGpu: "The renderers agree in {} of all values only: a kernel computes something else.";
     LightIsMissing: "The picture is darker than the scene: no strategy in use can make {}, however many samples are taken.";
-    LookMissing: "Open the aperture, and light that runs into the lens (t = 0) brings all of it; give the lights an extent, and eye paths run into them (s = 0); or take removed strategies in again.";
+    LookAperture: "Open the aperture: light then runs into the lens (t = 0).";
+    LookExtent: "Give the lights an extent: eye paths then run into them (s = 0).";
+    LookTakeIn: "Take removed strategies in again.";
+    Both: "{} {}";
     LookGpu: "Largest difference at pixel {} of the {} picture. shaders/*.wgsl against its twin of the same name in src/; tests/gpu finds the function.";
 }
 

@@ -81,14 +81,15 @@ fn chinese(phrase: Phrase) -> &'static str {
         Phrase::MeasuredMissingTooRare => "所用策略都无法生成 {}，但只找到 {} 条这样的路径（共 {} 个样本）：太少，无法说明缺少多少",
         Phrase::OnlyLongOnesMissing => "只缺少超过 {} 条边的路径，此处不作检查",
         Phrase::LightIsMissing => "图像比场景暗：无论样本多少，所用策略都无法生成 {}。",
-        Phrase::LookMissing => {
-            "可打开光圈，命中镜头的光（t = 0）会带来全部；可使用有面积的光源，视线路径会命中它（s = 0）；也可重新启用移除的策略。"
-        }
+        Phrase::LookAperture => "可打开光圈：光便会命中镜头（t = 0）。",
+        Phrase::LookExtent => "可使用有面积的光源：视线路径便会命中它（s = 0）。",
+        Phrase::LookTakeIn => "可重新启用移除的策略。",
+        Phrase::Both => "{} {}",
         Phrase::MeasuredReplay => {
             "{} 条路径重建 {} 次：p 最多相差 {}，f 最多相差 {}，Σw 与 1 最多相差 {}（相对值；上限 {}，{} 条路径超出）"
         }
         Phrase::MeasuredPairwise => "判定 {} 对，最大 |z| 为 {}（上限 {}，全部各对的总显著性水平 {}）；{} 对样本不足",
-        Phrase::MeasuredFurnace => "辐射亮度 {} ± {}，精确值 {}；各长度中最大 |z| 为 {}（上限 {}，显著性水平 {}）",
+        Phrase::MeasuredFurnace => "辐射亮度 {} ± {}，精确值 {}，路径不超过 {} 条边；各长度中最大 |z| 为 {}（上限 {}，显著性水平 {}）",
         Phrase::MeasuredIntegrators => "PT 得到 BDPT 的光的 {} ± {}，LT 得到 {} ± {}；比较 {} 次，最大 |z| 为 {}（上限 {}，显著性水平 {}）",
         Phrase::MeasuredFinite => "{} 个贡献：{} 个非有限，{} 个为负，{} 个权重在 0…1 之外；渲染 {} 遍、{} 种权重：{} 个被舍弃，{} 个过大",
         Phrase::MeasuredGpu => "{} / {} 个数值在 {} 以内相等，共 {} 遍（至少须占 {}）；{}",
