@@ -25,7 +25,7 @@ pub fn run(args: &SuggestArgs) -> Result<(), Failure> {
 /// The candidates, the best first, and what to do.
 fn table(scene: &str, judged: &[Judged]) -> String {
     if judged.is_empty() {
-        return "There is nothing to judge: no paths are made, or only paths of one edge.\n".to_owned();
+        return "There is nothing to judge: no path that is short enough brings light here.\n".to_owned();
     }
     let mut text = "efficiency  variance    cost  strategies\n".to_owned();
     for x in judged.iter().take(ROWS) {

@@ -20,6 +20,13 @@ fn a_pilot_run_suggests_strategies_and_rendering_obeys() {
 }
 
 #[test]
+fn where_no_path_is_made_there_is_nothing_to_suggest() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = stdout(&succeed(folder.path(), "suggest point-mirror --size 8x8 --max-edges 1"));
+    assert_eq!((text.lines().count(), text.starts_with("There is nothing to judge")), (1, true), "{text}");
+}
+
+#[test]
 fn a_suggestion_does_not_go_with_another_choice() {
     let folder = tempfile::tempdir().unwrap();
     for line in [

@@ -302,7 +302,8 @@ fn a_closing_aperture_becomes_the_pinhole() {
     }
 }
 
-/// Light that a wall stops does not hit the lens, though its ray would; strategy by strategy, as t = 0 tests no visibility.
+/// Light that a wall stops does not reach the lens by any of the three strategies of one edge. Would have caught: t = 0, which traces no
+/// visibility ray of its own, taking the ray of a step for the step.
 #[test]
 fn light_that_a_wall_stops_does_not_hit_the_lens() {
     let scene = |wall_z: f64| {

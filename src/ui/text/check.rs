@@ -84,7 +84,7 @@ fn chinese(phrase: Phrase) -> &'static str {
         Phrase::LookAperture => "可打开光圈：光便会命中镜头（t = 0）。",
         Phrase::LookExtent => "可使用有面积的光源：视线路径便会命中它（s = 0）。",
         Phrase::LookTakeIn => "可重新启用移除的策略。",
-        Phrase::Both => "{} {}",
+        Phrase::Both => "{}{}",
         Phrase::MeasuredReplay => {
             "{} 条路径重建 {} 次：p 最多相差 {}，f 最多相差 {}，Σw 与 1 最多相差 {}（相对值；上限 {}，{} 条路径超出）"
         }
